@@ -1,0 +1,39 @@
+// Many pictures that differ by one marker: what the marker does not change is rendered once.
+//
+// The background of a camera is rendered without a marker. For a picture with one, only the pixels that can show
+// it are traced again, with the random numbers that they would have in a full render; all others keep their
+// background value. What is left out is the light that the marker throws onto other surfaces (measured by
+// tests/composed_picture_test.cpp and given in docs/physics.md).
+#pragma once
+
+#include "renderer/film.h"
+#include "renderer/marker_truth.h"
+
+namespace retrolux {
+
+class ComposedCamera {
+ public:
+  // `scene` has no markers; it and `rays` must outlive the object. Renders the background on all threads.
+  ComposedCamera(const Scene& scene, const RayScene& rays, const CameraSpec& camera, RingChoice rings,
+                 const TraceOptions& options, Progress& progress);
+
+  // The noiseless mean signal with the marker. `retraced`, if not null, receives the number of pixels traced.
+  FloatPlane Signal(const PlacedMarker& marker, const MarkerSurface& surface, int64_t* retraced = nullptr) const;
+
+  const FloatPlane& Background() const { return background_; }
+  const CameraSpec& Camera() const { return response_.Camera(); }
+  double ExposureSeconds() const { return response_.ExposureSeconds(); }
+
+ private:
+  const Scene& scene_;
+  const RayScene& rays_;
+  Lights lights_;
+  CameraResponse response_;
+  TraceOptions options_;
+  FloatPlane background_;
+};
+
+// Pixels whose box can show the marker: those within a margin of the convex hull of its projected surface.
+std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface, const CameraModel& camera);
+
+}  // namespace retrolux

@@ -1,0 +1,23 @@
+// A shot: every camera of a scene records once.
+#pragma once
+
+#include <filesystem>
+
+#include "renderer/render_files.h"
+
+namespace retrolux {
+
+struct ShotOptions {
+  std::vector<std::string> cameras;  // empty: all
+  RingChoice rings = RingChoice::kAll;
+  TraceOptions trace;
+  uint64_t noise_seed = 1;
+  bool ids_only = false;
+};
+
+// Renders into `folder`: NAME.exr and NAME.png a camera, truth.json and cameras.yml for the shot. Returns the
+// names of the files. Everything that can be wrong with the input is found before the first ray.
+std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options, const std::filesystem::path& folder,
+                                    Progress& progress);
+
+}  // namespace retrolux

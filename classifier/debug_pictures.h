@@ -1,0 +1,29 @@
+// What the method saw, stage by stage, as pictures for people.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "classifier/detection.h"
+#include "classifier/edge_bands.h"
+#include "classifier/gradient.h"
+#include "classifier/pattern.h"
+
+namespace retrolux {
+
+struct Stages {
+  const GradientField& field;
+  const EdgeBands& bands;
+  const std::vector<Pattern>& patterns;
+  const std::vector<Detection>& detections;
+};
+
+// 01_picture.png   the smoothed picture, brightened (square root of DN)
+// 02_slope.png     its slope in standard deviations of the noise, white at 20
+// 03_steep.png     the steep pixels, each band in its own colour
+// 04_outlines.png  the half-height outlines of the patterns
+// 05_edges.png     the straight edges, in turns yellow and blue, and the corners
+// 06_names.png     the names with their confidence; ? for a pattern without
+void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stages);
+
+}  // namespace retrolux

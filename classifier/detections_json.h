@@ -1,0 +1,26 @@
+// detections.json: what was found in which picture (scenes/schema/detections-1.schema.json).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "classifier/detection.h"
+
+namespace retrolux {
+
+struct PictureDetections {
+  std::string file;    // as the user or the study named it
+  std::string camera;  // the file's name without its extension, unless known better
+  std::vector<Detection> detections;
+};
+
+nlohmann::ordered_json DetectionsJson(const std::string& method,
+                                      const std::vector<PictureDetections>& pictures);
+
+// Written whole or not at all.
+void WriteDetections(const std::filesystem::path& file, const std::string& method,
+                     const std::vector<PictureDetections>& pictures);
+
+}  // namespace retrolux

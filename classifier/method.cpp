@@ -1,0 +1,41 @@
+#include "classifier/method.h"
+
+#include "classifier/edges.h"
+#include "core/error.h"
+
+namespace retrolux {
+
+namespace {
+
+struct Entry {
+  const char* name;
+  Method method;
+};
+
+const std::vector<Entry>& Methods() {
+  static const std::vector<Entry> methods = {
+      {"edges",
+       [](const DigitalImage& image, const MarkerSet& markers, const std::filesystem::path* debug) {
+         return IdentifyByEdges(image, markers, EdgesOptions{}, debug);
+       }},
+  };
+  return methods;
+}
+
+}  // namespace
+
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names;
+  for (const Entry& entry : Methods()) names.emplace_back(entry.name);
+  return names;
+}
+
+Method MethodByName(const std::string& name) {
+  for (const Entry& entry : Methods()) {
+    if (name == entry.name) return entry.method;
+  }
+  throw InputError(
+      fmt::format("no method '{}'; expected one of {}", name, JoinNames(MethodNames())));
+}
+
+}  // namespace retrolux

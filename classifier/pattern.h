@@ -1,0 +1,28 @@
+// Bright patterns: what the method looks at.
+#pragma once
+
+#include <vector>
+
+#include "classifier/edge_bands.h"
+#include "classifier/edges.h"
+#include "classifier/gradient.h"
+
+namespace retrolux {
+
+struct Pattern {
+  // Where the picture is half way between the pattern and its surroundings, counter-clockwise for
+  // who looks at the picture, at equal steps.
+  Polygon outline;
+  double step_px = 0.0;
+  double area_px = 0.0;
+  double contrast = 0.0;      // height above the surroundings, DN (median over the outline)
+  double noise = 0.0;         // of a pixel there, DN
+  double blur_px = 0.0;       // width of its edges beyond that of a picture in focus
+  double hole_area_px = 0.0;  // of dark holes inside
+};
+
+// The patterns that lie wholly in the picture and are large, high and sharp enough for the options.
+std::vector<Pattern> FindPatterns(const GradientField& field, const EdgeBands& bands,
+                                  const EdgesOptions& options);
+
+}  // namespace retrolux

@@ -1,0 +1,49 @@
+// The subcommands of `retrolux`, a file each. To add one: write cli/NAME.cpp with an options struct, a
+// SetUpNAME that declares it, a RunNAME that does it; declare SetUpNAME here and call it in main.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "core/parallel.h"
+
+namespace retrolux::cli {
+
+// Options that every subcommand shares.
+struct GlobalOptions {
+  int threads = 0;  // 0: all that the process may use
+  uint64_t seed = 1;
+  std::optional<uint64_t> noise_seed;  // default: the seed
+  bool quiet = false;
+  bool json = false;
+  std::string command_line;  // as it was typed
+  std::string progress = "auto";  // auto: a bar if stderr is a terminal; json: lines for a log; none
+
+  uint64_t NoiseSeed() const { return noise_seed.value_or(seed); }
+};
+
+// Exit codes; 1 (our fault), 75 (try again) and 130/143 (interrupted) are main.cpp's.
+inline constexpr int kExitGood = 0;
+inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitCheckFailed = 3;
+
+// What the chosen subcommand does; returns the exit code.
+using Run = std::function<int()>;
+
+void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
+
+// The progress bar or log that the global options ask for.
+std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global);
+
+// Tells the result: the summary as JSON on stdout with --json, else `text` unless --quiet.
+void PrintResult(const GlobalOptions& global, const nlohmann::json& summary, const std::string& text);
+
+}  // namespace retrolux::cli

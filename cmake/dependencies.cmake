@@ -1,0 +1,11 @@
+# All from Debian 12; scripts/setup.sh installs them (the package list is scripts/packages.txt).
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenImageIO REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
+find_package(CLI11 REQUIRED)

@@ -1,0 +1,106 @@
+#include "core/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace retrolux {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void ThrowErrno(const fs::path& path, const char* doing, int error) {
+  const std::string message = fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(error));
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == ENOMEM) {
+    throw TryAgainError(message);
+  }
+  throw InputError(message + "; expected a place that can be written to");
+}
+
+fs::path TemporaryBeside(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  const std::string name = fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(),
+                                       counter++, path.extension().string());
+  return path.parent_path() / name;
+}
+
+void SyncFile(const fs::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) ThrowErrno(path, "open", errno);
+  const int result = ::fsync(fd);
+  const int error = errno;
+  ::close(fd);
+  if (result != 0) ThrowErrno(path, "sync", error);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path final_path)
+    : final_(std::move(final_path)), temporary_(TemporaryBeside(final_)) {}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  std::error_code ignored;  // a destructor can do no more than try
+  fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::Commit() {
+  SyncFile(temporary_);
+  if (std::rename(temporary_.c_str(), final_.c_str()) != 0) ThrowErrno(final_, "rename", errno);
+  committed_ = true;
+}
+
+void WriteTextFile(const fs::path& path, std::string_view text) {
+  AtomicFile file(path);
+  const int fd = ::open(file.Temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) ThrowErrno(path, "create", errno);
+  size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t n = ::write(fd, text.data() + written, text.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const int error = errno;
+      ::close(fd);
+      ThrowErrno(path, "write", error);
+    }
+    written += static_cast<size_t>(n);
+  }
+  ::close(fd);
+  file.Commit();
+}
+
+std::string ReadTextFile(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    throw InputError::At(path, "", "is a folder", "a file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    throw InputError::At(path, "", fmt::format("cannot be read ({})", std::strerror(errno)),
+                         "a readable file");
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void EnsureWritableFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) ThrowErrno(folder, "make the folder", error.value());
+  const fs::path probe = TemporaryBeside(folder / "probe");
+  const int fd = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd < 0) ThrowErrno(folder, "write into the folder", errno);
+  ::close(fd);
+  ::unlink(probe.c_str());
+}
+
+}  // namespace retrolux

@@ -1,0 +1,190 @@
+#include "core/image_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+
+namespace retrolux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Size {
+  int width, height;
+};
+
+Size SizeOf(const ExrChannel& channel) {
+  return std::visit([](const auto& plane) { return Size{plane.width, plane.height}; }, channel.plane);
+}
+
+[[noreturn]] void ThrowWrite(const fs::path& file, const std::string& reason) {
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::space_info space = fs::space(folder, error);
+  const std::string message = fmt::format("{}: cannot be written: {}", file.string(), reason);
+  if (!error && space.available < (1u << 20)) throw TryAgainError(message + " (the disk is full)");
+  throw InputError(message + "; expected a place that can be written to");
+}
+
+// Writes `pixels`, laid out as `spec` says, through OpenImageIO.
+void WriteThrough(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc format,
+                  const void* pixels) {
+  AtomicFile atomic(file);
+  auto output = OIIO::ImageOutput::create(atomic.Temporary().string());
+  if (!output) ThrowWrite(file, OIIO::geterror());
+  if (!output->open(atomic.Temporary().string(), spec)) ThrowWrite(file, output->geterror());
+  if (!output->write_image(format, pixels)) ThrowWrite(file, output->geterror());
+  if (!output->close()) ThrowWrite(file, output->geterror());
+  atomic.Commit();
+}
+
+std::unique_ptr<OIIO::ImageInput> Open(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    throw InputError::At(file, "", "no such file", "a picture");
+  }
+  auto input = OIIO::ImageInput::open(file.string());
+  if (!input) throw InputError::At(file, "", OIIO::geterror(), "a picture");
+  return input;
+}
+
+}  // namespace
+
+const FloatPlane& ExrImage::Float(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const ExrChannel& channel : channels) {
+    if (const auto* plane = std::get_if<FloatPlane>(&channel.plane)) {
+      if (channel.name == name) return *plane;
+      names.push_back(channel.name);
+    }
+  }
+  throw InputError(fmt::format("no FLOAT channel '{}'; expected one of {}", name, JoinNames(names)));
+}
+
+const IdPlane& ExrImage::Ids(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const ExrChannel& channel : channels) {
+    if (const auto* plane = std::get_if<IdPlane>(&channel.plane)) {
+      if (channel.name == name) return *plane;
+      names.push_back(channel.name);
+    }
+  }
+  throw InputError(fmt::format("no UINT channel '{}'; expected one of {}", name, JoinNames(names)));
+}
+
+void WriteExr(const fs::path& file, const ExrImage& image) {
+  RETROLUX_CHECK(!image.channels.empty(), "no channels for {}", file.string());
+  const Size size = SizeOf(image.channels.front());
+  const size_t count = image.channels.size();
+  OIIO::ImageSpec spec(size.width, size.height, static_cast<int>(count), OIIO::TypeFloat);
+  spec.channelnames.clear();
+  for (const ExrChannel& channel : image.channels) {
+    spec.channelnames.push_back(channel.name);
+    spec.channelformats.push_back(std::holds_alternative<IdPlane>(channel.plane) ? OIIO::TypeUInt32
+                                                                                 : OIIO::TypeFloat);
+  }
+  spec.attribute("compression", "zip");
+  for (const auto& [name, value] : image.attributes) spec.attribute(name, value);
+
+  // FLOAT and UINT are both four bytes, so that native pixels are an array of words.
+  const size_t pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
+  std::vector<uint32_t> native(pixels * count);
+  for (size_t c = 0; c < count; ++c) {
+    std::visit(
+        [&](const auto& plane) {
+          RETROLUX_CHECK(plane.data.size() == pixels, "{} has another size", image.channels[c].name);
+          for (size_t i = 0; i < pixels; ++i) {
+            std::memcpy(&native[i * count + c], &plane.data[i], sizeof(uint32_t));
+          }
+        },
+        image.channels[c].plane);
+  }
+  WriteThrough(file, spec, OIIO::TypeUnknown, native.data());
+}
+
+ExrImage ReadExr(const fs::path& file) {
+  auto input = Open(file);
+  const OIIO::ImageSpec& spec = input->spec();
+  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  ExrImage image;
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const bool ids = spec.channelformat(c) == OIIO::TypeUInt32;
+    ExrChannel channel{spec.channel_name(c), FloatPlane{}};
+    if (ids) channel.plane = IdPlane{};
+    std::visit(
+        [&](auto& plane) {
+          plane.width = spec.width;
+          plane.height = spec.height;
+          plane.data.resize(pixels);
+          const OIIO::TypeDesc format = ids ? OIIO::TypeUInt32 : OIIO::TypeFloat;
+          if (!input->read_image(0, 0, c, c + 1, format, plane.data.data())) {
+            throw InputError::At(file, "", input->geterror(), "a whole picture");
+          }
+        },
+        channel.plane);
+    image.channels.push_back(std::move(channel));
+  }
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    if (attribute.type() == OIIO::TypeString) {
+      image.attributes[attribute.name().string()] = attribute.get_string();
+    }
+  }
+  return image;
+}
+
+void WritePng(const fs::path& file, const DigitalImage& image) {
+  const bool wide = image.bits > 8;
+  OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1, wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
+  spec.attribute("png:compressionLevel", 1);
+  if (wide) {
+    WriteThrough(file, spec, OIIO::TypeUInt16, image.dn.data.data());
+    return;
+  }
+  const std::vector<uint8_t> bytes(image.dn.data.begin(), image.dn.data.end());
+  WriteThrough(file, spec, OIIO::TypeUInt8, bytes.data());
+}
+
+DigitalImage ReadGrey(const fs::path& file) {
+  auto input = Open(file);
+  const OIIO::ImageSpec& spec = input->spec();
+  const auto channels = static_cast<size_t>(spec.nchannels);
+  DigitalImage image;
+  image.bits = spec.format.size() == 1 ? 8 : 16;
+  image.dn = Plane<uint16_t>(spec.width, spec.height);
+  std::vector<float> pixels(image.dn.data.size() * channels);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data())) {
+    throw InputError::At(file, "", input->geterror(), "a whole picture");
+  }
+  const float full_scale = image.bits == 8 ? 255.0f : 65535.0f;
+  for (size_t i = 0; i < image.dn.data.size(); ++i) {
+    const float* p = &pixels[i * channels];
+    const float grey = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
+    image.dn.data[i] =
+        static_cast<uint16_t>(std::lround(std::clamp(grey, 0.0f, 1.0f) * full_scale));
+  }
+  return image;
+}
+
+void WriteRgbPng(const fs::path& file, int width, int height, const std::vector<uint8_t>& rgb) {
+  WriteThrough(file, OIIO::ImageSpec(width, height, 3, OIIO::TypeUInt8), OIIO::TypeUInt8, rgb.data());
+}
+
+std::string EncodeRgbPng(int width, int height, const std::vector<uint8_t>& rgb) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
+  auto output = OIIO::ImageOutput::create("memory.png", &memory);
+  RETROLUX_CHECK(output && output->open("memory.png", spec) &&
+                     output->write_image(OIIO::TypeUInt8, rgb.data()) && output->close(),
+                 "PNG in memory");
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace retrolux

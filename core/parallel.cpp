@@ -1,0 +1,49 @@
+#include "core/parallel.h"
+
+#include <sched.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+namespace retrolux {
+
+namespace {
+
+class SilentProgress : public Progress {
+ public:
+  void Begin(const std::string&, int64_t, const std::string&) override {}
+  void Advance(int64_t) override {}
+  void End() override {}
+};
+
+}  // namespace
+
+Progress& NoProgress() {
+  static SilentProgress silent;
+  return silent;
+}
+
+void ParallelFor(int64_t count, const std::function<void(int64_t)>& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<int64_t>(0, count, 1),
+      [&](const tbb::blocked_range<int64_t>& range) {
+        for (int64_t i = range.begin(); i != range.end(); ++i) body(i);
+      },
+      tbb::simple_partitioner());
+}
+
+LimitThreads::LimitThreads(int threads) {
+  const int limit = threads > 0 ? threads : AvailableThreads();
+  control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                     static_cast<size_t>(limit));
+}
+
+LimitThreads::~LimitThreads() { delete static_cast<tbb::global_control*>(control_); }
+
+int AvailableThreads() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) return 1;
+  return CPU_COUNT(&set);
+}
+
+}  // namespace retrolux

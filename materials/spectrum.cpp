@@ -1,0 +1,76 @@
+#include "materials/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/csv.h"
+#include "core/data_path.h"
+
+namespace retrolux {
+
+Spectrum Spectrum::Constant(double value) {
+  Spectrum spectrum;
+  spectrum.constant_ = static_cast<float>(value);
+  return spectrum;
+}
+
+Spectrum Spectrum::FromPoints(const std::vector<std::pair<double, double>>& points) {
+  RETROLUX_CHECK(!points.empty(), "a spectrum without points");
+  return FromFunction([&](double nm) {
+    const auto above = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.first > nm; });
+    if (above == points.begin()) return points.front().second;
+    if (above == points.end()) return points.back().second;
+    const auto below = above - 1;
+    const double t = (nm - below->first) / (above->first - below->first);
+    return below->second + t * (above->second - below->second);
+  });
+}
+
+Spectrum Spectrum::FromTable(const std::filesystem::path& file) {
+  const NumberTable table = ReadNumberTable(file);
+  if (table.columns.size() < 2 || table.columns[0] != "wavelength_nm") {
+    throw InputError::At(file, "header", JoinNames(table.columns), "wavelength_nm and a value");
+  }
+  std::vector<std::pair<double, double>> points;
+  for (const std::vector<double>& row : table.rows) {
+    if (!points.empty() && row[0] <= points.back().first) {
+      throw InputError::At(file, "", fmt::format("{} nm after {} nm", row[0], points.back().first),
+                           "ascending wavelengths");
+    }
+    points.emplace_back(row[0], row[1]);
+  }
+  return FromPoints(points);
+}
+
+double Spectrum::Integral() const {
+  if (samples_.empty()) return static_cast<double>(constant_) * (kMaxWavelength_nm - kMinWavelength_nm);
+  double sum = 0.0;
+  for (const float sample : samples_) sum += static_cast<double>(sample);
+  return sum - 0.5 * static_cast<double>(samples_.front() + samples_.back());
+}
+
+Spectrum Spectrum::Normalised() const {
+  const double integral = Integral();
+  RETROLUX_CHECK(integral > 0.0, "integral {}", integral);
+  return FromFunction([&](double nm) { return static_cast<double>(At(static_cast<float>(nm))) / integral; });
+}
+
+float Spectrum::Max() const {
+  return samples_.empty() ? constant_ : *std::max_element(samples_.begin(), samples_.end());
+}
+
+Spectrum LedSpectrum(double peak_nm, double fwhm_nm) {
+  return Spectrum::FromFunction([&](double nm) {
+           const double x = (nm - peak_nm) / fwhm_nm;
+           return std::exp(-4.0 * std::numbers::ln2 * x * x);
+         })
+      .Normalised();
+}
+
+Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max, double fallback) {
+  if (!json.Has(key)) return Spectrum::Constant(fallback);
+  if (!json.Child(key).IsString()) return Spectrum::Constant(json.Number(key, min, max));
+  return Spectrum::FromTable(DataPath(json.String(key)));
+}
+
+}  // namespace retrolux

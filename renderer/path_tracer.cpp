@@ -1,0 +1,202 @@
+#include "renderer/path_tracer.h"
+
+#include "core/hash.h"
+#include "core/sampling.h"
+
+namespace retrolux {
+
+// A surface point of a path, with its local frame and what scatters there.
+struct PathTracer::Vertex {
+  Vec3f position, geometric_normal;
+  Frame frame;
+  Vec3f wo;  // local, towards where the path came from
+  const Bsdf* bsdf = nullptr;
+  uint32_t marker = 0;
+};
+
+PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& lights, const CameraResponse& response,
+                       const std::vector<PlacedMarker>& markers, const TraceOptions& options)
+    : scene_(scene),
+      rays_(rays),
+      lights_(lights),
+      response_(response),
+      markers_(markers),
+      options_(options),
+      image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))),
+      camera_centre_(response.Camera().model.Centre().cast<float>()) {
+  for (const SceneObject& object : scene_.objects) bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
+}
+
+PathTracer::Vertex PathTracer::MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const {
+  // Near the limb the interpolated normal may face away from the ray; the triangle's own never does.
+  const bool smooth = hit.shading_normal.dot(direction) < 0.0f;
+  const Vec3f& normal = smooth ? hit.shading_normal : hit.geometric_normal;
+  Vertex vertex{hit.position, hit.geometric_normal, Frame(normal), Vec3f::Zero(), bsdf_of_object_[hit.body], 0};
+  vertex.wo = vertex.frame.LocalFromWorld(-direction);
+  for (const PlacedMarker& marker : markers_) {
+    if (marker.object != hit.body) continue;
+    const std::optional<Vec2d> place = marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
+    if (!place || !marker.IsBright(*place)) continue;
+    vertex.bsdf = marker.bright.get();
+    vertex.marker = marker.instance;
+    break;
+  }
+  return vertex;
+}
+
+void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm, bool every_group,
+                           PixelSampler& sampler, GroupValues& radiance) const {
+  const float pick = sampler.Next1D();
+  const Vec2f u = sampler.Next2D();
+  const float choice = sampler.Next1D();
+  const Vec3f origin = OffSurface(vertex.position, vertex.geometric_normal);
+  GroupValues unshadowed = GroupValues::Zero();
+  std::array<Vec3f, kMaxLightGroups> targets;
+  for (int group = 0; group < lights_.GroupCount(); ++group) {
+    const std::optional<LightSample> light = lights_.Sample(group, vertex.position, pick, u);
+    if (!light || light->direction.dot(vertex.geometric_normal) <= 0.0f) continue;
+    const Vec3f wi = vertex.frame.LocalFromWorld(light->direction);
+    const int k = lights_.SpectrumOf(group);
+    const BsdfValue value = vertex.bsdf->Evaluate(vertex.wo, wi, nm);
+    const float share = BalanceHeuristic(light->pdf, value.pdf);
+    unshadowed[group] = throughput[k] * value.f_cos[k] * light->radiance / light->pdf * share;
+    targets[static_cast<size_t>(group)] = light->position;
+  }
+  if (every_group) {
+    for (int group = 0; group < lights_.GroupCount(); ++group) {
+      if (unshadowed[group] > 0.0f && !rays_.Occluded(origin, targets[static_cast<size_t>(group)])) {
+        radiance[group] += unshadowed[group];
+      }
+    }
+    return;
+  }
+  const float sum = unshadowed.sum();
+  if (sum <= 0.0f) return;
+  int group = 0;
+  float rest = choice * sum;
+  int last = 0;
+  for (; group < lights_.GroupCount(); ++group) {
+    if (unshadowed[group] <= 0.0f) continue;
+    last = group;
+    rest -= unshadowed[group];
+    if (rest < 0.0f) break;
+  }
+  if (!rays_.Occluded(origin, targets[static_cast<size_t>(last)])) radiance[last] += sum;
+}
+
+PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, const Spectral& nm,
+                                             PixelSampler& sampler) const {
+  PathSample path;
+  Spectral throughput = Spectral::Ones();
+  float pdf = 0.0f;  // of the direction by the last BSDF; 0 for the camera's ray
+  const auto add_emission = [&](const Lights::Emission& emission) {
+    const float share = pdf > 0.0f ? BalanceHeuristic(pdf, emission.pdf) : 1.0f;
+    path.radiance[emission.group] += throughput[lights_.SpectrumOf(emission.group)] * emission.radiance * share;
+  };
+  for (int surface = 0; surface < options_.max_surfaces; ++surface) {
+    const std::optional<SurfaceHit> hit = rays_.Intersect(origin, direction);
+    if (!hit) {
+      if (const auto emission = lights_.Environment()) add_emission(*emission);
+      break;
+    }
+    if (!rays_.IsObject(hit->body)) {
+      if (const auto emission = lights_.Emitted(origin, direction, *hit)) add_emission(*emission);
+      break;
+    }
+    const Vertex vertex = MakeVertex(direction, *hit);
+    if (surface == 0) path.marker = vertex.marker;
+    const bool every_group = surface == 0 && options_.direct == TraceOptions::Direct::kEveryGroup;
+    AddDirect(vertex, throughput, nm, every_group, sampler, path.radiance);
+
+    const float lobe = sampler.Next1D();
+    const std::optional<BsdfSample> next = vertex.bsdf->Sample(vertex.wo, lobe, sampler.Next2D(), nm);
+    if (!next) break;
+    direction = vertex.frame.WorldFromLocal(next->wi);
+    if (direction.dot(vertex.geometric_normal) <= 0.0f) break;
+    throughput *= next->weight;
+    pdf = next->pdf;
+    // Russian roulette: a path goes on with the share of light that it carries.
+    const float survival = std::min(0.95f, throughput.maxCoeff());
+    if (sampler.Next1D() >= survival) break;
+    throughput /= survival;
+    origin = OffSurface(vertex.position, vertex.geometric_normal);
+  }
+  return path;
+}
+
+namespace {
+
+// Sums over the samples of a pixel by the marker that they show.
+class CoverageSum {
+ public:
+  void Add(uint32_t marker, float electrons) {
+    if (marker == 0) return;
+    for (size_t i = 0; i < count_; ++i) {
+      if (entries_[i].marker != marker) continue;
+      entries_[i].samples += 1.0f;
+      entries_[i].electrons += electrons;
+      return;
+    }
+    if (count_ < entries_.size()) entries_[count_++] = {marker, 1.0f, electrons};
+  }
+
+  MarkerCoverage Ranked(float samples) {
+    std::sort(entries_.begin(), entries_.begin() + static_cast<ptrdiff_t>(count_), [](const Entry& a, const Entry& b) {
+      return a.samples != b.samples ? a.samples > b.samples : a.marker < b.marker;
+    });
+    MarkerCoverage coverage;
+    for (size_t i = 0; i < std::min<size_t>(3, count_); ++i) {
+      coverage.instance[i] = entries_[i].marker;
+      coverage.weight[i] = entries_[i].samples / samples;
+      coverage.electrons[i] = entries_[i].electrons / samples;
+    }
+    return coverage;
+  }
+
+ private:
+  struct Entry {
+    uint32_t marker;
+    float samples, electrons;
+  };
+  std::array<Entry, 8> entries_;
+  size_t count_ = 0;
+};
+
+}  // namespace
+
+PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
+  const CameraModel& camera = response_.Camera().model;
+  const uint64_t pixel_key = CombineKeys(image_key_, static_cast<uint64_t>(y) << 32 | static_cast<uint64_t>(x));
+  const Vec3d forward = camera.Forward();
+  Eigen::Array<double, kMaxLightGroups, 1> sums = Eigen::Array<double, kMaxLightGroups, 1>::Zero();
+  double sum = 0.0, sum2 = 0.0, radiance = 0.0;
+  CoverageSum coverage;
+  for (int s = 0; s < options_.samples_per_pixel; ++s) {
+    PixelSampler sampler(pixel_key, static_cast<uint32_t>(s));
+    const Vec2f in_pixel = sampler.Next2D();
+    const Ray ray = camera.RayThrough(Vec2d(x, y) + in_pixel.cast<double>() - Vec2d(0.5, 0.5));
+    const Spectral nm = response_.SampleWavelengths(sampler.Next1D());
+    const PathSample path = TracePath(camera_centre_, ray.direction.cast<float>(), nm, sampler);
+    const CameraResponse::Weights weights = response_.WeightsAt(nm, static_cast<float>(ray.direction.dot(forward)));
+    double total = 0.0;
+    for (int group = 0; group < lights_.GroupCount(); ++group) {
+      const int k = lights_.SpectrumOf(group);
+      const auto electrons = static_cast<double>(path.radiance[group] * weights.electrons[k]);
+      sums[group] += electrons;
+      total += electrons;
+      radiance += static_cast<double>(path.radiance[group] * weights.in_band[k]);
+    }
+    sum += total;
+    sum2 += total * total;
+    coverage.Add(path.marker, static_cast<float>(total));
+  }
+  const double n = options_.samples_per_pixel;
+  PixelEstimate estimate;
+  estimate.electrons = (sums / n).cast<float>();
+  if (n > 1.0) estimate.variance = static_cast<float>(std::max(0.0, (sum2 - sum * sum / n) / (n * (n - 1.0))));
+  estimate.radiance = static_cast<float>(radiance / n);
+  estimate.coverage = coverage.Ranked(static_cast<float>(n));
+  return estimate;
+}
+
+}  // namespace retrolux

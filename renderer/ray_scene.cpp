@@ -1,0 +1,256 @@
+#include "renderer/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstring>
+#include <limits>
+
+namespace retrolux {
+
+namespace {
+
+void OnEmbreeError(void*, RTCError code, const char* message) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY) throw TryAgainError("not enough memory for the geometry");
+  throw std::logic_error(fmt::format("Embree error {}: {}", static_cast<int>(code), message));
+}
+
+// A mesh as Embree holds it, with what Embree does not hold.
+struct Body {
+  std::string name;
+  std::vector<Vec3f> normals;  // world, per vertex; empty: flat
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<Vec3f> positions;
+};
+
+template <typename T>
+T* NewBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, size_t count) {
+  return static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), count));
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  const Scene* scene = nullptr;
+  RTCDevice device = nullptr;
+  RTCScene tree = nullptr;
+  uint32_t objects = 0;
+  uint32_t rings = 0;
+  bool wide_packets = false;
+  std::vector<Body> bodies;
+
+  Impl() {
+    device = rtcNewDevice("threads=1,set_affinity=0");
+    rtcSetDeviceErrorFunction(device, OnEmbreeError, nullptr);
+    tree = rtcNewScene(device);
+    // Rays that graze an edge between two triangles must not slip through.
+    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
+    wide_packets = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  }
+  ~Impl() {
+    rtcReleaseScene(tree);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void AddTriangles(const std::string& name, const TriangleMesh& mesh, const RigidTransform& world_from_object) {
+    Body body{name, {}, mesh.triangles, {}};
+    for (const Vec3f& p : mesh.positions) body.positions.push_back((world_from_object * p.cast<double>()).cast<float>());
+    for (const Vec3f& n : mesh.normals) {
+      body.normals.push_back((world_from_object.rotation * n.cast<double>()).cast<float>());
+    }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = NewBuffer<Vec3f>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, body.positions.size());
+    std::copy(body.positions.begin(), body.positions.end(), vertices);
+    auto* indices = NewBuffer<std::array<uint32_t, 3>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
+                                                       body.triangles.size());
+    std::copy(body.triangles.begin(), body.triangles.end(), indices);
+    Attach(geometry, std::move(body));
+  }
+
+  // The LEDs of a ring as discs that face along the camera's axis.
+  void AddRing(const CameraSpec& camera) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    const auto count = static_cast<size_t>(camera.ring->count);
+    auto* discs = NewBuffer<Eigen::Array4f>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count);
+    auto* normals = NewBuffer<Vec3f>(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, count);
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3f centre = LedCentre(camera, static_cast<int>(i)).cast<float>();
+      discs[i] = {centre.x(), centre.y(), centre.z(), static_cast<float>(camera.ring->led_radius_mm)};
+      normals[i] = camera.model.Forward().cast<float>();
+    }
+    Attach(geometry, {"ring-" + camera.model.name, {}, {}, {}});
+  }
+
+  void Attach(RTCGeometry geometry, Body body) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tree, geometry, static_cast<uint32_t>(bodies.size()));
+    rtcReleaseGeometry(geometry);
+    bodies.push_back(std::move(body));
+  }
+
+  SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id, uint32_t primitive, float u,
+                     float v, float distance, const Vec3f& embree_normal) const {
+    SurfaceHit hit;
+    hit.distance = distance;
+    hit.body = body_id;
+    hit.primitive = primitive;
+    const Body& body = bodies[body_id];
+    if (body.triangles.empty()) {  // a disc
+      hit.position = origin + distance * direction;
+      hit.geometric_normal = hit.shading_normal = embree_normal.normalized();
+    } else {
+      const auto& t = body.triangles[primitive];
+      const Vec3f& a = body.positions[t[0]];
+      const Vec3f ab = body.positions[t[1]] - a, ac = body.positions[t[2]] - a;
+      // From the triangle, not from the ray: the error does not grow with the distance.
+      hit.position = a + u * ab + v * ac;
+      hit.geometric_normal = ab.cross(ac).normalized();
+      hit.shading_normal = hit.geometric_normal;
+      if (!body.normals.empty()) {
+        hit.shading_normal =
+            ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]]).normalized();
+      }
+    }
+    if (hit.geometric_normal.dot(direction) > 0.0f) hit.geometric_normal = -hit.geometric_normal;
+    if (hit.shading_normal.dot(hit.geometric_normal) < 0.0f) hit.shading_normal = -hit.shading_normal;
+    return hit;
+  }
+};
+
+RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+  impl_->scene = &scene;
+  for (const SceneObject& object : scene.objects) impl_->AddTriangles(object.name, object.mesh, object.world_from_object);
+  impl_->objects = static_cast<uint32_t>(scene.objects.size());
+  for (const CameraSpec& camera : scene.cameras) {
+    if (!camera.ring) continue;
+    impl_->AddRing(camera);
+    ++impl_->rings;
+  }
+  if (!scene.ambient.panels.empty()) {
+    TriangleMesh panels;
+    for (const LightPanel& panel : scene.ambient.panels) {
+      const auto first = static_cast<uint32_t>(panels.positions.size());
+      for (const Vec3d& corner : {panel.corner, Vec3d(panel.corner + panel.edge_u),
+                                  Vec3d(panel.corner + panel.edge_u + panel.edge_v), Vec3d(panel.corner + panel.edge_v)}) {
+        panels.positions.push_back(corner.cast<float>());
+      }
+      panels.triangles.push_back({first, first + 1, first + 2});
+      panels.triangles.push_back({first, first + 2, first + 3});
+    }
+    impl_->AddTriangles("panels", panels, {});
+  }
+  rtcCommitScene(impl_->tree);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& direction) const {
+  return Intersect(origin, direction, std::numeric_limits<float>::infinity());
+}
+
+std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& direction, float max_distance) const {
+  RTCRayHit query{};
+  query.ray.org_x = origin.x();
+  query.ray.org_y = origin.y();
+  query.ray.org_z = origin.z();
+  query.ray.dir_x = direction.x();
+  query.ray.dir_y = direction.y();
+  query.ray.dir_z = direction.z();
+  query.ray.tfar = max_distance;
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->tree, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return impl_->Resolve(origin, direction, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
+                        query.ray.tfar, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+}
+
+bool RayScene::Occluded(const Vec3f& origin, const Vec3f& target) const {
+  const Vec3f segment = target - origin;
+  const float length = segment.norm();
+  if (length <= 0.0f) return false;
+  RTCRay ray{};
+  ray.org_x = origin.x();
+  ray.org_y = origin.y();
+  ray.org_z = origin.z();
+  ray.dir_x = segment.x() / length;
+  ray.dir_y = segment.y() / length;
+  ray.dir_z = segment.z() / length;
+  // The target lies on a body; stop short of it by more than its coordinates are rounded.
+  ray.tfar = length - (1e-3f + 1e-6f * length);
+  ray.mask = ~0u;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(impl_->tree, &context, &ray);
+  return ray.tfar < 0.0f;
+}
+
+namespace {
+
+template <typename RayHitN, int N, typename Trace>
+void TracePackets(const Vec3f& origin, std::span<const Vec3f> directions, std::span<RayScene::PacketHit> hits,
+                  Trace trace) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (size_t first = 0; first < directions.size(); first += N) {
+    const size_t count = std::min<size_t>(N, directions.size() - first);
+    RayHitN packet{};
+    alignas(64) int valid[N];
+    for (size_t i = 0; i < N; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const Vec3f& d = directions[first + std::min(i, count - 1)];
+      packet.ray.org_x[i] = origin.x();
+      packet.ray.org_y[i] = origin.y();
+      packet.ray.org_z[i] = origin.z();
+      packet.ray.dir_x[i] = d.x();
+      packet.ray.dir_y[i] = d.y();
+      packet.ray.dir_z[i] = d.z();
+      packet.ray.tnear[i] = 0.0f;
+      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.ray.mask[i] = ~0u;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    trace(valid, &context, &packet);
+    for (size_t i = 0; i < count; ++i) {
+      hits[first + i] = {packet.hit.geomID[i], packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i],
+                         packet.ray.tfar[i]};
+    }
+  }
+}
+
+}  // namespace
+
+void RayScene::IntersectPacket(const Vec3f& origin, std::span<const Vec3f> directions,
+                               std::span<PacketHit> hits) const {
+  static_assert(PacketHit::kNone == RTC_INVALID_GEOMETRY_ID);
+  if (impl_->wide_packets) {
+    TracePackets<RTCRayHit16, 16>(origin, directions, hits, [&](const int* valid, RTCIntersectContext* c, RTCRayHit16* p) {
+      rtcIntersect16(valid, impl_->tree, c, p);
+    });
+  } else {
+    TracePackets<RTCRayHit8, 8>(origin, directions, hits, [&](const int* valid, RTCIntersectContext* c, RTCRayHit8* p) {
+      rtcIntersect8(valid, impl_->tree, c, p);
+    });
+  }
+}
+
+SurfaceHit RayScene::Resolve(const Vec3f& origin, const Vec3f& direction, const PacketHit& hit) const {
+  return impl_->Resolve(origin, direction, hit.body, hit.primitive, hit.u, hit.v, hit.distance, -direction);
+}
+
+uint32_t RayScene::ObjectCount() const { return impl_->objects; }
+uint32_t RayScene::RingCount() const { return impl_->rings; }
+
+std::vector<std::string> RayScene::BodyNames() const {
+  std::vector<std::string> names;
+  for (const Body& body : impl_->bodies) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace retrolux

@@ -1,0 +1,42 @@
+// What we use of a glTF file, checked: every index and every range of bytes is inside its array,
+// every number is finite. Units and axes are still glTF's. gltf.h makes meshes and cameras of it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "scenes/mesh.h"
+
+namespace retrolux {
+
+struct GltfNode {
+  std::string name;
+  Eigen::Affine3d parent_from_node = Eigen::Affine3d::Identity();
+  std::vector<size_t> children;  // a tree: no node is the child of two
+  std::optional<size_t> mesh;
+  std::optional<size_t> camera;
+};
+
+struct GltfCamera {
+  double vertical_fov_rad = 0.0;
+  double aspect_ratio = 1.0;          // width / height
+  std::optional<CameraModel> opencv;  // intrinsics from extras.opencv; its pose is not set
+};
+
+struct GltfModel {
+  std::filesystem::path file;
+  std::vector<GltfNode> nodes;
+  std::vector<size_t> roots;                       // of the default scene
+  std::vector<std::vector<TriangleMesh>> meshes;   // the primitives of each mesh
+  std::vector<std::optional<GltfCamera>> cameras;  // nothing for an orthographic one
+};
+
+// Refused with an InputError that names file and place: truncated or damaged files, paths out of
+// the folder of the file, primitives that are no triangles, sparse or compressed accessors, skins,
+// morph targets.
+GltfModel ReadGltfModel(const std::filesystem::path& file);
+
+}  // namespace retrolux

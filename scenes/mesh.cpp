@@ -1,0 +1,89 @@
+#include "scenes/mesh.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace retrolux {
+
+double TriangleMesh::Area() const {
+  double twice = 0.0;
+  for (const auto& t : triangles) {
+    const Vec3d a = positions[t[0]].cast<double>();
+    twice += (positions[t[1]].cast<double>() - a).cross(positions[t[2]].cast<double>() - a).norm();
+  }
+  return 0.5 * twice;
+}
+
+void TriangleMesh::Append(const TriangleMesh& other) {
+  RETROLUX_CHECK(positions.empty() || normals.empty() == other.normals.empty(), "normals on one side only");
+  const auto offset = static_cast<uint32_t>(positions.size());
+  positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+  normals.insert(normals.end(), other.normals.begin(), other.normals.end());
+  for (const auto& t : other.triangles) triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+}
+
+namespace {
+
+// Barycentric coordinates of the point of triangle (a, b, c) nearest to p (Ericson, Real-Time Collision
+// Detection, 5.1.5).
+Vec3d NearestBarycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
+  const Vec3d bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double v = d1 / (d1 - d3);
+    return {1.0 - v, v, 0.0};
+  }
+  const Vec3d cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double w = d2 / (d2 - d6);
+    return {1.0 - w, 0.0, w};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0.0, 1.0 - w, w};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+}  // namespace
+
+SurfacePoint NearestSurfacePoint(const TriangleMesh& mesh, const Vec3d& x) {
+  RETROLUX_CHECK(!mesh.triangles.empty(), "an empty mesh");
+  SurfacePoint nearest;
+  double nearest2 = std::numeric_limits<double>::infinity();
+  Vec3d weights = Vec3d::Zero();
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const Vec3d a = mesh.positions[t[0]].cast<double>();
+    const Vec3d b = mesh.positions[t[1]].cast<double>();
+    const Vec3d c = mesh.positions[t[2]].cast<double>();
+    const Vec3d w = NearestBarycentric(x, a, b, c);
+    const Vec3d p = w.x() * a + w.y() * b + w.z() * c;
+    const double distance2 = (p - x).squaredNorm();
+    if (distance2 >= nearest2) continue;
+    nearest2 = distance2;
+    weights = w;
+    nearest = {p, (b - a).cross(c - a), static_cast<uint32_t>(i)};
+  }
+  if (!mesh.normals.empty()) {
+    const auto& t = mesh.triangles[nearest.triangle];
+    nearest.normal = weights.x() * mesh.normals[t[0]].cast<double>() +
+                     weights.y() * mesh.normals[t[1]].cast<double>() +
+                     weights.z() * mesh.normals[t[2]].cast<double>();
+  }
+  nearest.normal.normalize();
+  return nearest;
+}
+
+}  // namespace retrolux

@@ -1,0 +1,152 @@
+#include "scenes/scene.h"
+
+#include <cmath>
+#include <set>
+
+namespace retrolux {
+
+double DiodeRing::LambertExponent() const {
+  return -std::numbers::ln2 / std::log(std::cos(RadFromDeg(half_angle_deg)));
+}
+
+Vec3d LedCentre(const CameraSpec& camera, int index) {
+  const double angle = 2.0 * kPi * index / camera.ring->count;
+  const Vec3d in_camera(camera.ring->radius_mm * std::cos(angle), camera.ring->radius_mm * std::sin(angle), 0.0);
+  return camera.model.camera_from_world.Inverse() * in_camera;
+}
+
+namespace {
+
+// The element of that name, or an error that lists the names there are.
+template <typename T, typename NameOf>
+const T& FindNamed(const std::vector<T>& items, const std::string& name, const char* kind, NameOf name_of) {
+  std::vector<std::string> names;
+  for (const T& item : items) {
+    if (name_of(item) == name) return item;
+    names.push_back(name_of(item));
+  }
+  throw InputError(fmt::format("no {} '{}' in the scene; expected one of {}", kind, name,
+                               names.empty() ? "(none)" : JoinNames(names)));
+}
+
+}  // namespace
+
+const SceneObject& Scene::Object(const std::string& object_name) const {
+  return FindNamed(objects, object_name, "object", [](const SceneObject& o) { return o.name; });
+}
+
+const CameraSpec& Scene::Camera(const std::string& camera_name) const {
+  return FindNamed(cameras, camera_name, "camera", [](const CameraSpec& c) { return c.model.name; });
+}
+
+Scene Scene::AtPose(const std::string& pose_name) const {
+  return AtPose(FindNamed(poses, pose_name, "pose", [](const Pose& p) { return p.name; }));
+}
+
+Scene Scene::AtPose(const Pose& pose) const {
+  const Vec3d given = poses.empty() ? Vec3d::Zero() : poses.front().translation;
+  Scene moved = *this;
+  for (SceneObject& object : moved.objects) {
+    if (object.moves_with_pose) object.world_from_object.translation += pose.translation - given;
+  }
+  moved.poses = {pose};
+  return moved;
+}
+
+void Scene::UseMaterial(const std::string& material_name) {
+  if (!materials.contains(material_name)) materials[material_name] = LibraryMaterial(material_name);
+}
+
+namespace {
+
+// Throws if a name appears twice.
+class UniqueNames {
+ public:
+  UniqueNames(const std::filesystem::path& file, const char* kind) : file_(file), kind_(kind) {}
+  void Add(const std::string& name) {
+    if (name.empty()) throw InputError::At(file_, kind_, "an empty name", "a name");
+    if (!seen_.insert(name).second) {
+      throw InputError::At(file_, kind_, fmt::format("the name '{}' twice", name), "unique names");
+    }
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  const char* kind_;
+  std::set<std::string> seen_;
+};
+
+void CheckRotation(const Mat3d& r, const std::filesystem::path& file, const std::string& place) {
+  if (!((r * r.transpose() - Mat3d::Identity()).norm() < 1e-6) || r.determinant() < 0.0) {
+    throw InputError::At(file, place, "a matrix that is no rotation (is 'up' along the line of sight?)", "a rigid transform");
+  }
+}
+
+void CheckObject(const Scene& scene, const SceneObject& object, const std::filesystem::path& file) {
+  const std::string place = fmt::format("object '{}'", object.name);
+  if (!scene.materials.contains(object.material)) {
+    throw InputError::At(file, place, fmt::format("material '{}'", object.material), "a material of the scene");
+  }
+  const size_t vertices = object.mesh.positions.size();
+  for (const auto& triangle : object.mesh.triangles) {
+    for (const uint32_t v : triangle) {
+      if (v >= vertices) throw InputError::At(file, place, fmt::format("vertex {} of {}", v, vertices), "vertices that exist");
+    }
+  }
+  for (const Vec3f& p : object.mesh.positions) {
+    if (!p.allFinite()) throw InputError::At(file, place, "a vertex that is not a number", "finite coordinates");
+  }
+  if (object.mesh.triangles.empty() || !(object.mesh.Area() > 0.0)) {
+    throw InputError::At(file, place, fmt::format("a mesh of {} triangles without area", object.mesh.triangles.size()),
+                         "a surface");
+  }
+  CheckRotation(object.world_from_object.rotation, file, place);
+}
+
+void CheckSpectra(const Scene& scene, const std::filesystem::path& file) {
+  std::set<std::pair<double, double>> leds;
+  for (const CameraSpec& camera : scene.cameras) {
+    if (camera.ring) leds.emplace(camera.ring->peak_nm, camera.ring->fwhm_nm);
+  }
+  const size_t spectra = leds.size() + 1;  // and the room's
+  if (spectra > static_cast<size_t>(kMaxSpectra)) {
+    throw InputError::At(file, "cameras", fmt::format("{} kinds of light (LED types and the room)", spectra),
+                         fmt::format("at most {}", kMaxSpectra));
+  }
+}
+
+}  // namespace
+
+void CheckScene(const Scene& scene, const std::filesystem::path& file) {
+  UniqueNames objects(file, "objects"), cameras(file, "cameras"), markers(file, "markers"), poses(file, "poses");
+  for (const SceneObject& object : scene.objects) {
+    objects.Add(object.name);
+    CheckObject(scene, object, file);
+  }
+  if (scene.cameras.empty()) throw InputError::At(file, "cameras", "none", "at least one camera");
+  for (const CameraSpec& camera : scene.cameras) {
+    cameras.Add(camera.model.name);
+    CheckRotation(camera.model.camera_from_world.rotation, file, fmt::format("camera '{}'", camera.model.name));
+  }
+  if (scene.exposure.time_s <= 0.0 && !scene.materials.contains(scene.exposure.marker_material)) {
+    throw InputError::At(file, "exposure", fmt::format("marker_material '{}'", scene.exposure.marker_material),
+                         "a material of the scene");
+  }
+  for (const Pose& pose : scene.poses) poses.Add(pose.name);
+  for (const MarkerSpec& marker : scene.markers) {
+    markers.Add(marker.name);
+    const std::string place = fmt::format("marker '{}'", marker.name);
+    try {
+      scene.Object(marker.object);
+      DefaultMarkerSet().ByNumber(marker.number);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}: {}", file.string(), place, error.what()));
+    }
+    if (!scene.materials.contains(marker.material)) {
+      throw InputError::At(file, place, fmt::format("material '{}'", marker.material), "a material of the scene");
+    }
+  }
+  CheckSpectra(scene, file);
+}
+
+}  // namespace retrolux

@@ -1,0 +1,136 @@
+// The description of a scene: plain structs, filled by scene.json (scene_json.h) or by code (built_in.h),
+// read by the renderer. Lengths mm, world frame of core/conventions.h.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "core/marker_set.h"
+#include "core/transform.h"
+#include "materials/filter.h"
+#include "materials/material_library.h"
+#include "scenes/mesh.h"
+#include "scenes/up_axis.h"
+
+namespace retrolux {
+
+// A ring of light-emitting diodes around a lens, in the plane through the camera's centre, each LED
+// facing forward. Defaults: docs/assumptions.md.
+struct DiodeRing {
+  int count = 24;
+  double radius_mm = 30.0;
+  double peak_nm = 880.0;
+  double fwhm_nm = 80.0;
+  double half_angle_deg = 20.0;              // where the intensity is half: I = I0 cos^m, m = -ln 2 / ln cos
+  double radiant_intensity_w_sr = 0.05;      // I0 of one LED, over its whole spectrum
+  double led_radius_mm = 2.5;                // radius of the emitting disc
+
+  double LambertExponent() const;
+};
+
+// A lens without thickness whose f-number enters the irradiance only: E = pi L T cos^4 / (4 N^2).
+struct Lens {
+  double focal_length_mm = 30.0;
+  double f_number = 5.6;
+  double transmission = 0.85;  // of the glass, without the filter
+};
+
+// The sensor as EMVA 1288 describes one (linear model). Defaults: a half-inch interline CCD of about 2003.
+struct SensorSpec {
+  std::string quantum_efficiency = "materials/data/qe_interline_ccd.csv";
+  double full_well_e = 30000.0;
+  double read_noise_e = 20.0;          // temporal dark noise of the read-out, 1 sigma
+  double dark_current_e_s = 50.0;      // at operating temperature
+  int adc_bits = 8;
+  double offset_dn = 3.0;              // black level, so that dark noise is not cut off at zero
+  // Gain in DN per electron. 0: chosen so that a full well is the largest number of the ADC.
+  double gain_dn_e = 0.0;
+};
+
+struct CameraSpec {
+  CameraModel model;
+  Lens lens;
+  std::optional<DichroicFilter> filter;
+  SensorSpec sensor;
+  std::optional<DiodeRing> ring;
+};
+
+// Centre of LED `index` of a camera's ring in the world; LED 0 lies on the camera's +x axis.
+Vec3d LedCentre(const CameraSpec& camera, int index);
+
+// A rectangle that emits evenly into its half-space, along edge_u x edge_v.
+struct LightPanel {
+  Vec3d corner, edge_u, edge_v;
+};
+
+// The light of the room; light group "ambient".
+struct AmbientLight {
+  std::string spectrum = "materials/data/fluorescent.csv";  // relative emission over wavelength
+  double radiance_w_m2_sr = 0.0;         // of the panels, 400 to 1100 nm
+  std::vector<LightPanel> panels;
+  double environment_w_m2_sr = 0.0;      // from where no object is, the same spectrum
+};
+
+struct SceneObject {
+  std::string name;
+  TriangleMesh mesh;                  // object frame
+  RigidTransform world_from_object;
+  std::string material;               // name in Scene::materials
+  bool moves_with_pose = false;
+};
+
+// A marker on the surface of an object.
+struct MarkerSpec {
+  std::string name;
+  int number = 1;                     // shape in the marker set
+  std::string object;                 // whose surface it lies on
+  Vec3d at = Vec3d::Zero();           // object frame; the nearest point of the surface is taken
+  double roll_deg = 0.0;              // about the outward normal, see marker_placement.h
+  std::string material = "retro_bead";
+  bool dark = false;                  // a dark shape on a bright square instead of a bright shape
+};
+
+// A position of the patient: all objects that move with the pose are shifted by it.
+struct Pose {
+  std::string name;
+  Vec3d translation = Vec3d::Zero();  // world
+};
+
+struct Exposure {
+  // 0: derived, so that a frontal marker of `marker_material` at `distance_mm` in the light of the camera's
+  // own ring sits at `fraction` of full scale (renderer/exposure.h).
+  double time_s = 0.0;
+  double fraction = 0.7;
+  double distance_mm = 1600.0;
+  std::string marker_material = "retro_bead";
+};
+
+struct Scene {
+  std::string name;
+  UpAxis up_axis = UpAxis::kX;        // how the world stands in a glTF viewer
+  std::map<std::string, Material> materials;
+  std::vector<SceneObject> objects;
+  std::vector<CameraSpec> cameras;
+  std::vector<MarkerSpec> markers;
+  AmbientLight ambient;
+  std::vector<Pose> poses;            // the first is the one that the objects are given in
+  Exposure exposure;
+
+  // InputError that lists the known names.
+  const SceneObject& Object(const std::string& object_name) const;
+  const CameraSpec& Camera(const std::string& camera_name) const;
+  // The scene with its moving objects at another of its poses. The result has that pose only.
+  Scene AtPose(const std::string& pose_name) const;
+  Scene AtPose(const Pose& pose) const;
+  // A material of the scene, taken from the library at its first use.
+  void UseMaterial(const std::string& material_name);
+};
+
+// What the parts of a scene must fulfil beyond their types: names that exist and are unique, meshes with an
+// area, cameras with pixels, at most kMaxSpectra kinds of light. InputError that begins with `file`.
+void CheckScene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace retrolux

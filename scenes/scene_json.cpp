@@ -1,0 +1,219 @@
+#include "scenes/scene_json.h"
+
+#include <algorithm>
+
+#include "core/json_reader.h"
+#include "scenes/built_in.h"
+#include "scenes/gltf.h"
+#include "scenes/scene_json_camera.h"
+#include "scenes/scene_json_values.h"
+
+namespace retrolux {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Mat3d RotationFromEuler(const Vec3d& deg) {
+  const auto about = [](double angle_deg, const Vec3d& axis) {
+    return Eigen::AngleAxisd(RadFromDeg(angle_deg), axis).toRotationMatrix();
+  };
+  return about(deg.z(), Vec3d::UnitZ()) * about(deg.y(), Vec3d::UnitY()) *
+         about(deg.x(), Vec3d::UnitX());
+}
+
+Material LibraryMaterialAt(const JsonReader& node, const std::string& expected) {
+  const std::string name = node.AsString();
+  const std::vector<std::string> names = LibraryMaterialNames();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    node.Fail(fmt::format("the unknown material {}", Quoted(name)),
+              fmt::format("{} {}", expected, JoinNames(names)));
+  }
+  return LibraryMaterial(name);
+}
+
+Material ReadDeclaredMaterial(const std::string& name, JsonReader json) {
+  if (!json.Has("library")) return ReadMaterial(name, json);
+  Material material = LibraryMaterialAt(json.Child("library"), "one of");
+  json.Finish();
+  material.name = name;
+  return material;
+}
+
+// The name of a material: one that the scene declares, else one of the library, which the scene
+// then has.
+std::string UsedMaterial(Scene& scene, JsonReader& json, const std::string& key) {
+  const JsonReader node = json.Child(key);
+  const std::string name = node.AsString();
+  if (!scene.materials.contains(name)) {
+    scene.materials[name] = LibraryMaterialAt(node, "a material of the scene or of the library:");
+  }
+  return name;
+}
+
+MarkerSpec ReadMarker(Scene& scene, JsonReader json) {
+  MarkerSpec marker;
+  marker.name = json.String("name");
+  marker.number = json.Integer("number", 0, 999);
+  marker.object = json.String("object");
+  marker.at = Position(json, "at_mm");
+  marker.roll_deg = json.Number("roll_deg", -3600.0, 3600.0, marker.roll_deg);
+  marker.dark = json.Bool("dark", marker.dark);
+  if (json.Has("material")) {
+    marker.material = UsedMaterial(scene, json, "material");
+  } else {
+    scene.UseMaterial(marker.material);
+  }
+  json.Finish();
+  return marker;
+}
+
+AmbientLight ReadAmbient(JsonReader json) {
+  AmbientLight ambient;
+  ambient.spectrum = TableName(json, "spectrum", ambient.spectrum);
+  ambient.radiance_w_m2_sr = json.Number("radiance_w_m2_sr", 0.0, 1e6, ambient.radiance_w_m2_sr);
+  ambient.environment_w_m2_sr =
+      json.Number("environment_w_m2_sr", 0.0, 1e6, ambient.environment_w_m2_sr);
+  ForEach(json, "panels", [&](JsonReader panel) {
+    const LightPanel light = {Position(panel, "corner_mm"), Position(panel, "edge_u_mm"),
+                              Position(panel, "edge_v_mm")};
+    panel.Finish();
+    if (!(light.edge_u.cross(light.edge_v).norm() > 0.0))
+      panel.Fail("a panel without area", "edges that span a rectangle");
+    ambient.panels.push_back(light);
+  });
+  json.Finish();
+  return ambient;
+}
+
+Pose ReadPose(JsonReader json) {
+  const Pose pose = {json.String("name"), Position(json, "translation_mm", Vec3d::Zero())};
+  json.Finish();
+  return pose;
+}
+
+Exposure ReadExposure(Scene& scene, JsonReader json) {
+  Exposure exposure;
+  if (json.Has("time_s")) {
+    const JsonReader time = json.Child("time_s");
+    if (!time.IsString()) {
+      exposure.time_s = time.AsNumber(1e-9, 1e4);
+    } else if (time.AsString() != "auto") {
+      time.Fail(Quoted(time.AsString()), "\"auto\" or a time in seconds");
+    }
+  }
+  exposure.fraction = json.Number("fraction", 0.001, 1.0, exposure.fraction);
+  exposure.distance_mm = json.Number("distance_mm", 1.0, 1e6, exposure.distance_mm);
+  if (json.Has("marker_material"))
+    exposure.marker_material = UsedMaterial(scene, json, "marker_material");
+  json.Finish();
+  return exposure;
+}
+
+RigidTransform ReadPlacement(JsonReader& json) {
+  RigidTransform placement;
+  placement.translation = Position(json, "translation_mm", placement.translation);
+  if (json.Has("rotation_matrix") && json.Has("rotation_deg")) {
+    json.Fail("both rotation_matrix and rotation_deg", "one of them");
+  }
+  if (json.Has("rotation_matrix")) placement.rotation = Rotation(json.Child("rotation_matrix"));
+  if (json.Has("rotation_deg"))
+    placement.rotation = RotationFromEuler(json.Vector3("rotation_deg"));
+  return placement;
+}
+
+// Reads the objects of one scene file; each geometry file is read once.
+class ObjectReader {
+ public:
+  ObjectReader(Scene& scene, fs::path folder, UpAxis up)
+      : scene_(scene), folder_(std::move(folder)), up_(up) {}
+
+  SceneObject Read(JsonReader json) {
+    SceneObject object;
+    object.name = json.String("name");
+    object.world_from_object = ReadPlacement(json);
+    object.material = UsedMaterial(scene_, json, "material");
+    object.moves_with_pose = json.Bool("moves_with_pose", object.moves_with_pose);
+    const std::string file = PathBelow(json, "file");
+    const bool has_node = json.Has("node");
+    const std::string node = has_node ? json.String("node") : "";
+    const bool in_node = json.Has("frame") && json.Choice("frame", {"file", "node"}) == "node";
+    if (in_node && !has_node)
+      json.Fail("\"frame\": \"node\" without a node", "the key 'node' with its name");
+    json.Finish();
+    const GltfFile& geometry = Open(file, json.Child("file"));
+    object.mesh = has_node
+                      ? geometry.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
+                      : geometry.Mesh(up_);
+    return object;
+  }
+
+ private:
+  const GltfFile& Open(const std::string& name, const JsonReader& at) {
+    const auto open = files_.find(name);
+    if (open != files_.end()) return open->second;
+    const fs::path path = folder_ / name;
+    if (!fs::is_regular_file(path))
+      at.Fail(fmt::format("no file {}", Quoted(name)), "a glTF file below the folder of the scene");
+    return files_.emplace(name, GltfFile(path)).first->second;
+  }
+
+  Scene& scene_;
+  const fs::path folder_;
+  const UpAxis up_;
+  std::map<std::string, GltfFile> files_;
+};
+
+// What a file says of itself: checked where wrong values would be misread.
+void ReadPreamble(JsonReader& json) {
+  json.Schema("retrolux/scene-1");
+  json.String("version", "");
+  if (json.Has("units")) json.Choice("units", {"mm"});
+  if (json.Has("pixel_origin")) json.Choice("pixel_origin", {"center"});
+}
+
+}  // namespace
+
+Scene ReadSceneFile(const fs::path& file) {
+  JsonReader json = JsonReader::FromFile(file);
+  ReadPreamble(json);
+  Scene scene;
+  scene.name = json.String("name");
+  if (json.Has("up_axis") && json.Choice("up_axis", {"x", "z"}) == "z") scene.up_axis = UpAxis::kZ;
+  if (json.Has("materials")) {
+    JsonReader materials = json.Child("materials");
+    for (const std::string& name : materials.Keys()) {
+      scene.materials[name] = ReadDeclaredMaterial(name, materials.Child(name));
+    }
+  }
+  ObjectReader objects(scene, file.parent_path(), scene.up_axis);
+  ForEach(json, "objects",
+          [&](const JsonReader& object) { scene.objects.push_back(objects.Read(object)); });
+  ForEach(json, "cameras",
+          [&](const JsonReader& camera) { scene.cameras.push_back(ReadCamera(camera)); });
+  ForEach(json, "markers",
+          [&](const JsonReader& marker) { scene.markers.push_back(ReadMarker(scene, marker)); });
+  ForEach(json, "poses", [&](const JsonReader& pose) { scene.poses.push_back(ReadPose(pose)); });
+  if (json.Has("ambient")) scene.ambient = ReadAmbient(json.Child("ambient"));
+  if (json.Has("exposure")) scene.exposure = ReadExposure(scene, json.Child("exposure"));
+  scene.UseMaterial(scene.exposure.marker_material);
+  json.Finish();
+  CheckScene(scene, file);
+  return scene;
+}
+
+Scene LoadScene(const std::string& name_or_path) {
+  std::vector<std::string> names;
+  for (const BuiltInEntry& entry : BuiltInScenes()) {
+    if (name_or_path == entry.name) return entry.make();
+    names.emplace_back(entry.name);
+  }
+  const fs::path path = name_or_path;
+  if (fs::is_directory(path)) return ReadSceneFile(path / "scene.json");
+  if (fs::exists(path)) return ReadSceneFile(path);
+  throw InputError(
+      fmt::format("no scene '{}'; expected {}, or the path of a scene.json or of its folder",
+                  name_or_path, JoinNames(names)));
+}
+
+}  // namespace retrolux
