@@ -30,6 +30,9 @@ double Since(Clock::time_point& last) {
   return seconds;
 }
 
+// Light that went over another surface first is a few per cent of the signal here: half the paths for it do.
+constexpr float kRoulette = 0.5f;
+
 // A pattern belongs to the marker if its centroid lies this close to the marker's outline, px.
 constexpr double kMatchMargin_px = 2.0;
 
@@ -82,6 +85,7 @@ class PoseStudy {
     TraceOptions trace;
     trace.samples_per_pixel = study.options.samples_per_pixel;
     trace.direct = TraceOptions::Direct::kOneOfAll;
+    trace.roulette = kRoulette;
     trace.seed = CombineKeys(study.options.seed, HashBytes(study.poses[static_cast<size_t>(pose)].name));
     for (const CameraSpec& camera : scene_.cameras) {
       cameras_.push_back(std::make_unique<ComposedCamera>(scene_, rays_, camera, RingChoice::kAll, trace, progress_));

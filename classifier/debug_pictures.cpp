@@ -90,7 +90,8 @@ std::string NameOf(const Detection& d) {
 }  // namespace
 
 void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stages) {
-  const auto& [field, bands, patterns, detections] = stages;
+  const GradientField& field = stages.field;
+  const EdgeBands& bands = stages.bands;
   EnsureWritableFolder(folder);
   const int width = field.smooth.width;
   const int height = field.smooth.height;
@@ -109,12 +110,12 @@ void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stage
   }).Write(folder / "03_steep.png");
 
   Canvas outlines(width, height, picture);
-  for (const Pattern& pattern : patterns) outlines.Closed(pattern.outline, kGreen);
+  for (const Pattern& pattern : stages.patterns) outlines.Closed(pattern.outline, kGreen);
   outlines.Write(folder / "04_outlines.png");
 
   Canvas edges(width, height, picture);
   Canvas names(width, height, picture);
-  for (const Detection& d : detections) {
+  for (const Detection& d : stages.detections) {
     const size_t n = d.corners_px.size();
     for (size_t i = 0; i < n; ++i) {
       edges.Line(d.corners_px[i], d.corners_px[(i + 1) % n], i % 2 == 0 ? kYellow : kBlue);

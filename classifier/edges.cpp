@@ -138,6 +138,7 @@ std::vector<Detection> IdentifyByEdges(const DigitalImage& image, const MarkerSe
   FindEdgeBands(field, options.min_slope_sigma, bands);
   const std::vector<Pattern> patterns = FindPatterns(field, bands, options);
   std::vector<Detection> detections;
+  detections.reserve(patterns.size());
   for (const Pattern& pattern : patterns) {
     detections.push_back(Identify(pattern, markers, options));
   }

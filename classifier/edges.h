@@ -3,7 +3,7 @@
 // number of straight edges. Where to read on, in the order of the work:
 //   gradient.h     noise of the picture, its slope
 //   pattern.h      bands of steep slope -> closed contours at half height -> patterns
-//   polygon_fit.h  the smallest number of straight edges that explains a contour
+//   polygon_fit.h  the number of straight edges of a contour
 //   ellipse_fit.h  round patterns
 //   shape_match.h  the counted corners against the outline of the marker with that count
 #pragma once
@@ -19,7 +19,8 @@ namespace retrolux {
 
 struct EdgesOptions {
   // Smallest area inside the contour that is looked at, px2. Smaller finds markers further away,
-  // and gives more patterns that are noise.
+  // and lets blurred blobs pass for triangles: in 7000 random views no wrong name was larger
+  // than 64.
   double min_area_px = 70.0;
   // Slope at which a pixel counts as an edge, in standard deviations of the slope's noise. Lower
   // finds dimmer patterns, and connects neighbours by noise. At 5 a megapixel of noise has about 4

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/data_path.h"
-#include "core/sampling.h"
 
 namespace retrolux {
 
@@ -19,7 +18,8 @@ float SolidAnglePdf(float area_pdf, float distance2, float cosine) { return area
 // Intensity I0 cos^m over a disc of area A: radiance I0 cos^(m-1) / A. The disc is small, so that its intensity
 // is that of the LED.
 float Lights::Ring::RadianceAt(float cos_theta) const {
-  return cos_theta > 0.0f ? intensity * std::pow(cos_theta, exponent - 1.0f) / led_area_m2 : 0.0f;
+  if (cos_theta <= 0.0f) return 0.0f;
+  return intensity * std::pow(cos_theta, exponent - 1.0f) / (led_area_mm2 * kSquareMetrePerSquareMm);
 }
 
 int Lights::SpectrumIndex(double peak_nm, double fwhm_nm) {
@@ -42,13 +42,14 @@ Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice, cons
     if (choice == RingChoice::kOwn && camera.model.name != own_camera) continue;
     const DiodeRing& spec = *camera.ring;
     Ring ring;
-    for (int i = 0; i < spec.count; ++i) ring.leds.push_back(LedCentre(camera, i).cast<float>());
+    for (int i = 0; i < spec.count; ++i) {
+      ring.centres.push_back(LedCentre(camera, i).cast<float>());
+      const std::array<Vec3d, kLedCorners> outline = LedOutline(camera, i);
+      std::array<Vec3f, kLedCorners>& corners = ring.outlines.emplace_back();
+      for (size_t k = 0; k < corners.size(); ++k) corners[k] = outline[k].cast<float>();
+    }
     ring.axis = camera.model.Forward().cast<float>();
-    const Frame frame(ring.axis);
-    ring.tangent = frame.tangent;
-    ring.bitangent = frame.bitangent;
-    ring.led_radius = static_cast<float>(spec.led_radius_mm);
-    ring.led_area_m2 = kPiF * ring.led_radius * ring.led_radius * kSquareMetrePerSquareMm;
+    ring.led_area_mm2 = static_cast<float>(kPi * spec.led_radius_mm * spec.led_radius_mm);
     ring.intensity = static_cast<float>(spec.radiant_intensity_w_sr);
     ring.exponent = static_cast<float>(spec.LambertExponent());
     group_of_body_[ring_body] = GroupCount();
@@ -88,20 +89,29 @@ std::optional<LightSample> Lights::Sample(int group, const Vec3f& x, float pick,
 }
 
 std::optional<LightSample> Lights::SampleRing(const Ring& ring, const Vec3f& x, float pick, const Vec2f& u) const {
-  const auto count = static_cast<float>(ring.leds.size());
-  const Vec3f& centre = ring.leds[std::min(static_cast<size_t>(pick * count), ring.leds.size() - 1)];
-  const Vec2f d = SampleUnitDisc(u) * ring.led_radius;
+  // `pick` chooses the LED, u the triangle and the place in it: all triangles have the same area.
+  const size_t led = std::min(static_cast<size_t>(pick * static_cast<float>(ring.centres.size())), ring.centres.size() - 1);
+  const float along = u.x() * kLedCorners;
+  const size_t corner = std::min(static_cast<size_t>(along), ring.outlines[led].size() - 1);
+  const float root = std::sqrt(u.y());
+  const float b = root * (along - static_cast<float>(corner));
+  const Vec3f& centre = ring.centres[led];
+  const Vec3f& first = ring.outlines[led][corner];
+  const Vec3f& second = ring.outlines[led][(corner + 1) % kLedCorners];
   LightSample sample;
-  sample.position = centre + d.x() * ring.tangent + d.y() * ring.bitangent;
+  sample.position = centre + (root - b) * (first - centre) + b * (second - centre);
   const Vec3f offset = sample.position - x;
   const float distance2 = offset.squaredNorm();
   sample.direction = offset / std::sqrt(distance2);
   const float cos_led = -sample.direction.dot(ring.axis);
   if (cos_led <= 0.0f) return std::nullopt;
   sample.radiance = ring.RadianceAt(cos_led);
-  const float area_mm2 = kPiF * ring.led_radius * ring.led_radius;
-  sample.pdf = SolidAnglePdf(1.0f / (count * area_mm2), distance2, cos_led);
+  sample.pdf = RingPdf(ring, distance2, cos_led);
   return sample;
+}
+
+float Lights::RingPdf(const Ring& ring, float distance2, float cos_led) {
+  return SolidAnglePdf(1.0f / (static_cast<float>(ring.centres.size()) * ring.led_area_mm2), distance2, cos_led);
 }
 
 std::optional<LightSample> Lights::SamplePanels(const Vec3f& x, float pick, const Vec2f& u) const {
@@ -133,9 +143,7 @@ std::optional<Lights::Emission> Lights::Emitted(const Vec3f& origin, const Vec3f
     const Ring& ring = rings_[static_cast<size_t>(group)];
     const float cos_led = -direction.dot(ring.axis);
     if (cos_led <= 0.0f) return std::nullopt;
-    const float area = kPiF * ring.led_radius * ring.led_radius * static_cast<float>(ring.leds.size());
-    return Emission{group, ring.RadianceAt(cos_led),
-                    SolidAnglePdf(1.0f / area, (hit.position - origin).squaredNorm(), cos_led)};
+    return Emission{group, ring.RadianceAt(cos_led), RingPdf(ring, (hit.position - origin).squaredNorm(), cos_led)};
   }
   const LightPanel& panel = panels_[hit.primitive / 2];
   const float cos_panel = -direction.dot(panel.edge_u.cross(panel.edge_v).normalized().cast<float>());

@@ -56,14 +56,16 @@ class Lights {
     uint32_t body;  // in the RayScene
   };
   struct Ring {
-    std::vector<Vec3f> leds;
-    Vec3f axis, tangent, bitangent;
-    float led_radius, led_area_m2, intensity, exponent;
+    std::vector<Vec3f> centres;
+    std::vector<std::array<Vec3f, kLedCorners>> outlines;
+    Vec3f axis;
+    float led_area_mm2, intensity, exponent;
     float RadianceAt(float cos_theta) const;
   };
   int SpectrumIndex(double peak_nm, double fwhm_nm);
   std::optional<LightSample> SampleRing(const Ring& ring, const Vec3f& x, float pick, const Vec2f& u) const;
   std::optional<LightSample> SamplePanels(const Vec3f& x, float pick, const Vec2f& u) const;
+  static float RingPdf(const Ring& ring, float distance2, float cos_led);
   float PanelPdf(const Vec3f& x, const Vec3f& position, float cos_panel) const;
 
   std::vector<Group> groups_;

@@ -116,7 +116,7 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
     throughput *= next->weight;
     pdf = next->pdf;
     // Russian roulette: a path goes on with the share of light that it carries.
-    const float survival = std::min(0.95f, throughput.maxCoeff());
+    const float survival = std::min(0.95f, options_.roulette * throughput.maxCoeff());
     if (sampler.Next1D() >= survival) break;
     throughput /= survival;
     origin = OffSurface(vertex.position, vertex.geometric_normal);

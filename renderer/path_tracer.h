@@ -18,6 +18,9 @@ struct TraceOptions {
   enum class Direct { kEveryGroup, kOneOfAll };
   Direct direct = Direct::kEveryGroup;
   int max_surfaces = 6;  // of a path
+  // Chance of a path to go on, for each unit of the throughput that it carries (at most 0.95). Lower is faster, and noisier
+  // in the indirect light only.
+  float roulette = 1.0f;
 };
 
 // The share of a pixel that shows a marker, for the three that show most; 0 = none.

@@ -42,8 +42,6 @@ struct RayScene::Impl {
     device = rtcNewDevice("threads=1,set_affinity=0");
     rtcSetDeviceErrorFunction(device, OnEmbreeError, nullptr);
     tree = rtcNewScene(device);
-    // Rays that graze an edge between two triangles must not slip through.
-    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
     wide_packets = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   }
   ~Impl() {
@@ -65,52 +63,44 @@ struct RayScene::Impl {
     auto* indices = NewBuffer<std::array<uint32_t, 3>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                                        body.triangles.size());
     std::copy(body.triangles.begin(), body.triangles.end(), indices);
-    Attach(geometry, std::move(body));
-  }
-
-  // The LEDs of a ring as discs that face along the camera's axis.
-  void AddRing(const CameraSpec& camera) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
-    const auto count = static_cast<size_t>(camera.ring->count);
-    auto* discs = NewBuffer<Eigen::Array4f>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count);
-    auto* normals = NewBuffer<Vec3f>(geometry, RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, count);
-    for (size_t i = 0; i < count; ++i) {
-      const Vec3f centre = LedCentre(camera, static_cast<int>(i)).cast<float>();
-      discs[i] = {centre.x(), centre.y(), centre.z(), static_cast<float>(camera.ring->led_radius_mm)};
-      normals[i] = camera.model.Forward().cast<float>();
-    }
-    Attach(geometry, {"ring-" + camera.model.name, {}, {}, {}});
-  }
-
-  void Attach(RTCGeometry geometry, Body body) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tree, geometry, static_cast<uint32_t>(bodies.size()));
     rtcReleaseGeometry(geometry);
     bodies.push_back(std::move(body));
   }
 
-  SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id, uint32_t primitive, float u,
-                     float v, float distance, const Vec3f& embree_normal) const {
+  // The emitting surfaces of a ring's LEDs, kLedCorners triangles each about its centre.
+  void AddRing(const CameraSpec& camera) {
+    TriangleMesh mesh;
+    for (int led = 0; led < camera.ring->count; ++led) {
+      const auto centre = static_cast<uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(LedCentre(camera, led).cast<float>());
+      for (const Vec3d& corner : LedOutline(camera, led)) mesh.positions.push_back(corner.cast<float>());
+      for (uint32_t i = 0; i < kLedCorners; ++i) {
+        mesh.triangles.push_back({centre, centre + 1 + i, centre + 1 + (i + 1) % kLedCorners});
+      }
+    }
+    AddTriangles("ring-" + camera.model.name, mesh, {});
+  }
+
+  SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id, uint32_t primitive, float u, float v,
+                     float distance) const {
     SurfaceHit hit;
     hit.distance = distance;
     hit.body = body_id;
     hit.primitive = primitive;
     const Body& body = bodies[body_id];
-    if (body.triangles.empty()) {  // a disc
-      hit.position = origin + distance * direction;
-      hit.geometric_normal = hit.shading_normal = embree_normal.normalized();
-    } else {
-      const auto& t = body.triangles[primitive];
-      const Vec3f& a = body.positions[t[0]];
-      const Vec3f ab = body.positions[t[1]] - a, ac = body.positions[t[2]] - a;
-      // From the triangle, not from the ray: the error does not grow with the distance.
-      hit.position = a + u * ab + v * ac;
-      hit.geometric_normal = ab.cross(ac).normalized();
-      hit.shading_normal = hit.geometric_normal;
-      if (!body.normals.empty()) {
-        hit.shading_normal =
-            ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]]).normalized();
-      }
+    const auto& t = body.triangles[primitive];
+    const Vec3f& a = body.positions[t[0]];
+    const Vec3f ab = body.positions[t[1]] - a, ac = body.positions[t[2]] - a;
+    hit.geometric_normal = ab.cross(ac).normalized();
+    // The ray is right across its direction, also on triangles of metres; the triangle's plane is right along it.
+    const Vec3f on_ray = origin + distance * direction;
+    hit.position = on_ray - hit.geometric_normal.dot(on_ray - a) * hit.geometric_normal;
+    hit.shading_normal = hit.geometric_normal;
+    if (!body.normals.empty()) {
+      hit.shading_normal =
+          ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]]).normalized();
     }
     if (hit.geometric_normal.dot(direction) > 0.0f) hit.geometric_normal = -hit.geometric_normal;
     if (hit.shading_normal.dot(hit.geometric_normal) < 0.0f) hit.shading_normal = -hit.shading_normal;
@@ -166,8 +156,7 @@ std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& 
   rtcInitIntersectContext(&context);
   rtcIntersect1(impl_->tree, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return impl_->Resolve(origin, direction, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
-                        query.ray.tfar, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+  return impl_->Resolve(origin, direction, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar);
 }
 
 bool RayScene::Occluded(const Vec3f& origin, const Vec3f& target) const {
@@ -241,7 +230,7 @@ void RayScene::IntersectPacket(const Vec3f& origin, std::span<const Vec3f> direc
 }
 
 SurfaceHit RayScene::Resolve(const Vec3f& origin, const Vec3f& direction, const PacketHit& hit) const {
-  return impl_->Resolve(origin, direction, hit.body, hit.primitive, hit.u, hit.v, hit.distance, -direction);
+  return impl_->Resolve(origin, direction, hit.body, hit.primitive, hit.u, hit.v, hit.distance);
 }
 
 uint32_t RayScene::ObjectCount() const { return impl_->objects; }

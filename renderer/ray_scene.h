@@ -19,7 +19,7 @@ struct SurfaceHit {
   // Index of what was hit: first the objects of the scene, then the rings (in the order of the cameras that have
   // one), then the light panels as one.
   uint32_t body = 0;
-  uint32_t primitive = 0;  // triangle of an object, LED of a ring, triangle of the panels (two each)
+  uint32_t primitive = 0;  // triangle of an object, of a ring (kLedCorners an LED), of the panels (two each)
 };
 
 class RayScene {

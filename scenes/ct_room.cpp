@@ -10,7 +10,7 @@ namespace {
 
 // Oval: 280 mm along z, 200 mm across (thesis 3.4).
 const Vec3d kOvalSemiAxes(100.0, 100.0, 140.0);
-constexpr int kOvalLevels = 6;
+constexpr int kOvalLevels = 5;  // 20,480 triangles
 
 // A conventional CT of about 2003: 700 mm bore, 800 mm deep. The flares are as wide as the front cameras need:
 // their lines of sight to the scan point leave a 350 mm bore at z = 277 to 307 mm.

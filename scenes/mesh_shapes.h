@@ -8,7 +8,8 @@
 namespace retrolux {
 
 // Ellipsoid about the origin: an icosahedron subdivided `levels` times (20 * 4^levels triangles), vertices and
-// vertex normals exact. At level 6 a semi-axis of 100 mm deviates by less than 0.006 mm.
+// vertex normals exact. At level 5 the surface of
+// the oval lies less than 0.03 mm inside the true one.
 TriangleMesh EllipsoidMesh(const Vec3d& semi_axes, int levels);
 
 TriangleMesh BoxMesh(const Vec3d& min_corner, const Vec3d& max_corner);

@@ -15,6 +15,20 @@ Vec3d LedCentre(const CameraSpec& camera, int index) {
   return camera.model.camera_from_world.Inverse() * in_camera;
 }
 
+std::array<Vec3d, kLedCorners> LedOutline(const CameraSpec& camera, int index) {
+  const Mat3d world_from_camera = camera.model.camera_from_world.rotation.transpose();
+  const Vec3d centre = LedCentre(camera, index);
+  // n/2 r^2 sin(2 pi / n) = pi r_led^2
+  const double radius = camera.ring->led_radius_mm * std::sqrt(2.0 * kPi / (kLedCorners * std::sin(2.0 * kPi / kLedCorners)));
+  std::array<Vec3d, kLedCorners> corners;
+  for (int i = 0; i < kLedCorners; ++i) {
+    // The camera's x, y, z (forward) are right-handed: increasing angle is counter-clockwise for who looks back along -z.
+    const double angle = 2.0 * kPi * i / kLedCorners;
+    corners[static_cast<size_t>(i)] = centre + world_from_camera * Vec3d(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+  }
+  return corners;
+}
+
 namespace {
 
 // The element of that name, or an error that lists the names there are.

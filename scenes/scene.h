@@ -2,6 +2,7 @@
 // read by the renderer. Lengths mm, world frame of core/conventions.h.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -60,6 +61,11 @@ struct CameraSpec {
 
 // Centre of LED `index` of a camera's ring in the world; LED 0 lies on the camera's +x axis.
 Vec3d LedCentre(const CameraSpec& camera, int index);
+
+// Corners of its emitting surface: a regular polygon with the area of the LED's disc, so that it is made of triangles
+// of equal area; counter-clockwise seen from in front of the camera.
+inline constexpr int kLedCorners = 12;
+std::array<Vec3d, kLedCorners> LedOutline(const CameraSpec& camera, int index);
 
 // A rectangle that emits evenly into its half-space, along edge_u x edge_v.
 struct LightPanel {

@@ -78,10 +78,14 @@ DigitalImage Digitise(const Plane<double>& mean, double noise, uint64_t seed) {
 template <typename Inside>
 int HitsOf64(const Vec2d& px, Inside inside) {
   int hits = 0;
-  for (int s = 0; s < 9; ++s) hits += inside(px + 0.5 * Vec2d(s % 3 - 1, s / 3 - 1));
+  for (const double dy : {-0.5, 0.0, 0.5}) {
+    for (const double dx : {-0.5, 0.0, 0.5}) hits += inside(px + Vec2d(dx, dy));
+  }
   if (hits == 0 || hits == 9) return hits == 0 ? 0 : 64;
   hits = 0;
-  for (int s = 0; s < 64; ++s) hits += inside(px + Vec2d(s % 8 - 3.5, s / 8 - 3.5) / 8.0);
+  for (int j = 0; j < 8; ++j) {
+    for (int i = 0; i < 8; ++i) hits += inside(px + Vec2d(i - 3.5, j - 3.5) / 8.0);
+  }
   return hits;
 }
 

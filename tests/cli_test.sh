@@ -1,0 +1,245 @@
+#!/usr/bin/env bash
+# The command line from end to end: wrong input gives one clear line, exit code 2 and no output; the same seed gives
+# the same bytes on any number of threads. Prints a line for each case; exit 1 if one fails.
+#   cli_test.sh RETROLUX_BINARY
+# Needs node to look into JSON. All files are in a folder of its own under TMPDIR, removed at the end.
+set -u
+[ $# -eq 1 ] && [ -x "$1" ] || { echo "usage: cli_test.sh RETROLUX_BINARY" >&2; exit 2; }
+retrolux=$(realpath "$1")
+work=$(mktemp -d "${TMPDIR:-/tmp}/retrolux_cli.XXXXXX") || exit 2
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 2
+failed=0 cases=0
+
+good() { cases=$((cases + 1)); printf 'ok    %s\n' "$1"; }
+bad() { cases=$((cases + 1)); failed=$((failed + 1)); printf 'FAIL  %s: %s\n' "$1" "$2"; }
+
+# run ARGS...: the program on files of this folder, with a limit, so that a hang is a failure (exit code 124).
+limit_s=120
+run() { timeout "$limit_s" "$retrolux" "$@" >stdout.txt 2>stderr.txt </dev/null; }
+
+# refuse NAME PATTERN OUT ARGS...: exit code 2, one line on stderr that matches PATTERN (extended, place before what was
+# found before what is expected), nothing on stdout, and nothing at OUT.
+refuse() {
+  local name=$1 pattern=$2 out=$3 code lines
+  shift 3
+  limit_s=20 run "$@"
+  code=$?
+  lines=$(wc -l <stderr.txt)
+  if [ $code -ne 2 ]; then bad "$name" "exit code $code, not 2: $(head -c 300 stderr.txt)"
+  elif [ "$lines" -ne 1 ]; then bad "$name" "$lines lines on stderr, not 1: $(head -c 300 stderr.txt | tr '\n' '|')"
+  elif ! grep -qE -- "$pattern" stderr.txt; then bad "$name" "no /$pattern/ in: $(cat stderr.txt)"
+  elif [ -s stdout.txt ]; then bad "$name" "something on stdout: $(head -c 100 stdout.txt)"
+  elif [ -e "$out" ]; then bad "$name" "output was left: $(find "$out" | head -3 | tr '\n' ' ')"
+  else good "$name"; fi
+  rm -rf "$out"
+}
+
+# succeed NAME ARGS...: exit code 0 and a silent stderr.
+succeed() {
+  local name=$1 code
+  shift
+  run "$@"
+  code=$?
+  if [ $code -ne 0 ]; then bad "$name" "exit code $code: $(head -c 300 stderr.txt)"; return 1
+  elif [ -s stderr.txt ]; then bad "$name" "on stderr: $(head -c 300 stderr.txt)"; return 1
+  else good "$name"; fi
+}
+
+# same NAME A B FILES...: the files of both folders have the same bytes.
+same() {
+  local name=$1 a=$2 b=$3 file
+  shift 3
+  for file in "$@"; do
+    [ -s "$a/$file" ] || { bad "$name" "no $a/$file"; return; }
+    cmp -s "$a/$file" "$b/$file" || { bad "$name" "$file differs"; return; }
+  done
+  good "$name"
+}
+
+# holds NAME FILE EXPRESSION: a JSON file that is valid and for which the JavaScript EXPRESSION over `json` is true.
+holds() {
+  if node -e "const json = JSON.parse(require('fs').readFileSync('$2', 'utf8')); process.exit(($3) ? 0 : 1)" >node.txt 2>&1
+  then good "$1"; else bad "$1" "not so in $2: $3 $(grep -m1 Error node.txt)"; fi
+}
+
+no_parts() {
+  local parts
+  parts=$(find . -name '*.part*')
+  if [ -z "$parts" ]; then good "$1"; else bad "$1" "$parts"; fi
+}
+
+# ------------------------------------------------------------------------------------------ scenes that are wrong
+mkdir scene empty
+run scene export oval --out scene || { bad "scene export oval" "$(cat stderr.txt)"; exit 1; }
+
+# variant NAME SED: the exported scene with a change, beside its geometry.
+variant() { sed -E "$2" scene/scene.json >"scene/$1.json"; cmp -s scene/scene.json "scene/$1.json" && bad "variant $1" "no change"; }
+render_bad() { refuse "$1" "$2" bad "render" "$3" --size 64x48 --spp 1 --out bad; }
+
+render_bad "missing scene file" 'nowhere\.json.*expected' nowhere.json
+render_bad "folder without scene.json" 'empty/scene\.json.*No such file.*expected' empty
+render_bad "unknown built-in" 'oval-room.*expected.*ct-room.*oval.*sphere' oval-room
+variant wrong_type 's/"name": "oval"/"name": 7/'
+render_bad "wrong type" 'wrong_type\.json: /name: found number 7; expected a string' scene/wrong_type.json
+variant unknown_key 's/"full_well_e"/"full_wel_e"/'
+render_bad "unknown key" "unknown_key\.json: /cameras/0/sensor: found the unknown key 'full_wel_e'; expected 'full_well_e'" scene/unknown_key.json
+variant nan 's/"full_well_e": [0-9.]+/"full_well_e": NaN/'
+render_bad "NaN in JSON" 'nan\.json.*line [0-9]+.*N.*expected' scene/nan.json
+variant infinite 's/"full_well_e": [0-9.]+/"full_well_e": 1e999/'
+render_bad "a number beyond double" 'infinite\.json.*too large.*expected' scene/infinite.json
+head -c 5000 scene/oval.glb >scene/truncated.glb
+variant truncated 's/oval\.glb/truncated.glb/'
+render_bad "truncated GLB" 'truncated\.glb.*5000 bytes.*expected' scene/truncated.json
+cat >scene/flat.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "mask", "mesh": 0}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]}
+GLTF
+variant flat 's/oval\.glb/flat.gltf/'
+render_bad "mesh without area" "flat\.json: object 'mask'.*without area.*expected a surface" scene/flat.json
+sed 's/"mesh": 0/"extras": 0/' scene/flat.gltf >scene/none.gltf
+variant none 's/oval\.glb/none.gltf/'
+render_bad "file without a mesh" "none\.gltf.*expected.*mesh" scene/none.json
+variant no_glb 's/oval\.glb/gone.glb/'
+render_bad "missing geometry" 'no_glb\.json: /objects/0/file.*gone\.glb.*expected' scene/no_glb.json
+variant escape 's/"name": "camera"/"name": "..\/escaped"/'
+render_bad "camera name that leaves the folder" 'escape\.json.*\.\./escaped.*expected' scene/escape.json
+if compgen -G 'escaped*' >found.txt; then bad "nothing outside the folder" "$(tr '\n' ' ' <found.txt)"; rm -f escaped*; else good "nothing outside the folder"; fi
+variant two_lines 's/"material": "mask"/"material": "no\\nsuch"/'
+render_bad "line break in a name" 'two_lines\.json: /objects/0/material.*expected' scene/two_lines.json
+{ printf '{"schema": '; head -c 200000 /dev/zero | tr '\0' '['; head -c 200000 /dev/zero | tr '\0' ']'; printf '}'; } >scene/deep.json
+render_bad "nested 200,000 deep" 'deep\.json.*expected' scene/deep.json
+variant dark 's/"radiant_intensity_w_sr": [0-9.]+/"radiant_intensity_w_sr": 0.0/; s/"dark_current_e_s": [0-9.]+/"dark_current_e_s": 0.0/'
+render_bad "exposure that no light fixes" "exposure.*expected" scene/dark.json
+variant offset 's/"offset_dn": [0-9.]+/"offset_dn": 300.0/'
+render_bad "black level above the ADC's range" 'offset.*300.*expected' scene/offset.json
+mkfifo scene/pipe.json
+render_bad "scene file that is a pipe" 'pipe\.json.*expected' scene/pipe.json
+
+# ---------------------------------------------------------------------------------------------- options that are wrong
+small=(--size 64x48 --out bad)
+refuse "negative spp" '--spp.*-3.*1.*1048576' bad render oval --spp -3 "${small[@]}"
+refuse "zero spp" '--spp.*0.*1.*1048576' bad render oval --spp 0 "${small[@]}"
+refuse "spp that is not a number" '--spp.*nan' bad render oval --spp nan "${small[@]}"
+refuse "negative seed" '--seed.*-1' bad render oval --seed -1 --spp 1 "${small[@]}"
+refuse "negative threads" '--threads.*-1.*0.*1024' bad render oval --threads -1 --spp 1 "${small[@]}"
+touch file
+refuse "unwritable output" 'file/x.*expected' file/x render oval --spp 1 --size 64x48 --out file/x
+refuse "output that is a file" 'file: .*expected' bad render oval --spp 1 --size 64x48 --out file
+refuse "unknown camera" "camera 'front'.*expected.*camera" bad render oval --camera front --spp 1 "${small[@]}"
+refuse "unknown pose" "pose 'middle'.*expected.*reference, start, end" bad render ct-room --pose middle --spp 1 "${small[@]}"
+refuse "unknown rings" '--rings.*some.*all.*own' bad render oval --rings some --spp 1 "${small[@]}"
+for size in 64 64x 0x48 -64x48 64x48x2 nanxnan 99999x48 4294967360x48; do
+  refuse "size $size" "--size.*$size.*expected" bad render oval --spp 1 --size "$size" --out bad
+done
+refuse "render without --out" '--out.*required' bad render oval --spp 1
+refuse "export without --out" '--out.*required' bad scene export oval
+refuse "export of an unknown scene" 'cube.*expected.*oval' bad scene export cube --out bad
+refuse "export to an unwritable place" 'file/x.*expected' file/x scene export oval --out file/x
+refuse "unknown subcommand" 'paint' bad paint oval --out bad
+refuse "unknown study" 'colours' bad study colours --out bad
+refuse "no subcommand" 'subcommand' bad
+refuse "unknown option" '--colour' bad render oval --spp 1 --colour "${small[@]}"
+refuse "study without --out" '--out.*required' bad study markers
+refuse "study of an unknown marker" 'marker 9.*expected.*1, 2, 3, 4, 5, 6' bad study markers --markers 2,9 --out bad
+refuse "study of an unknown pose" "pose 'middle'.*expected.*reference, start, end" bad study markers --poses middle --out bad
+refuse "study of an unknown scene" 'cube.*expected.*oval' bad study markers --scene cube --out bad
+refuse "study with zero spp" '--spp.*0.*1.*65536' bad study markers --spp 0 --out bad
+refuse "study with an unknown method" '--method.*magic.*edges' bad study markers --method magic --out bad
+
+# ------------------------------------------------------------------------------------------------------- good pictures
+files=(camera.png camera.exr truth.json cameras.yml)
+succeed "render on 1 thread" render oval --size 64x48 --spp 2 --threads 1 --out one
+sleep 1.1  # no time of day may get into the files
+succeed "render on 2 threads" render oval --size 64x48 --spp 2 --threads 2 --out two
+same "1 and 2 threads, identical bytes" one two "${files[@]}"
+succeed "render with another seed" render oval --size 64x48 --spp 2 --seed 2 --noise-seed 1 --out seed
+if cmp -s one/camera.exr seed/camera.exr; then bad "another seed, another picture" "the same"; else good "another seed, another picture"; fi
+succeed "render with another noise seed" render oval --size 64x48 --spp 2 --noise-seed 2 --out noise
+if cmp -s one/camera.png noise/camera.png; then bad "another noise seed, another noise" "the same"; else good "another noise seed, another noise"; fi
+holds "truth.json names its conventions and all seven markers" one/truth.json \
+  'json.schema === "retrolux/truth-1" && json.pixel_origin === "center" && json.cameras.camera.markers.length === 7'
+succeed "ids only" render oval --size 64x48 --ids-only --out ids
+if [ -s ids/camera.exr ] && [ ! -e ids/camera.png ]; then good "ids only: EXR and no PNG"; else bad "ids only: EXR and no PNG" "$(ls ids)"; fi
+same "ids only: cameras.yml as with light" ids one cameras.yml
+succeed "own rings" render ct-room --size 32x24 --spp 1 --rings own --camera back-left --out own
+succeed "all rings, two cameras" render ct-room --size 32x24 --spp 1 --camera back-left,front-middle --out all
+if [ "$(cd all && echo *.png)" = "back-left.png front-middle.png" ]; then good "--camera chooses"; else bad "--camera chooses" "$(ls all)"; fi
+if cmp -s own/back-left.exr all/back-left.exr; then bad "--rings matters" "the same picture"; else good "--rings matters"; fi
+succeed "render at a pose" render ct-room --size 32x24 --spp 1 --camera back-left --pose start --out start
+holds "the pose is in truth.json" start/truth.json 'json.pose === "start"'
+succeed "render of the exported scene" render scene --size 64x48 --spp 2 --threads 2 --out exported
+same "the exported scene gives the same picture" one exported camera.png cameras.yml
+run scene export scene --out again
+same "export of the export" scene again scene.json oval.glb
+succeed "--json" render oval --size 32x24 --spp 1 --json --out json
+cp stdout.txt result.json
+holds "--json of render is JSON" result.json 'json.out === "json" && json.files.includes("truth.json")'
+for command in "scene list" "scene show ct-room"; do
+  # shellcheck disable=SC2086
+  succeed "--json $command" $command --json
+  cp stdout.txt result.json
+  holds "--json of $command is JSON" result.json 'typeof json === "object"'
+done
+succeed "--quiet" render oval --size 32x24 --spp 1 --quiet --out quiet
+if [ -s stdout.txt ]; then bad "--quiet is silent" "$(cat stdout.txt)"; else good "--quiet is silent"; fi
+
+# -------------------------------------------------------------------------------------------------- identification
+refuse "classify without a picture" 'IMAGE.*required' bad classify --out bad
+refuse "classify a missing picture" 'gone\.png.*expected a picture' bad classify gone.png --out bad
+echo "no picture" >text.png
+refuse "classify a text file" 'text\.png.*expected a picture' bad classify text.png --out bad
+refuse "classify a folder" 'empty: .*folder.*expected a picture' bad classify empty --out bad
+succeed "render at full size" render oval --spp 8 --out full
+head -c 20000 full/camera.png >truncated.png
+refuse "classify a truncated PNG" 'truncated\.png.*expected a' bad classify truncated.png --out bad
+refuse "classify one good and one truncated" 'truncated\.png.*expected a' bad classify full/camera.png truncated.png --out bad
+refuse "classify by an unknown method" 'magic.*expected.*edges' bad classify full/camera.png --method magic --out bad
+refuse "classify without --out" '--out.*required' bad classify full/camera.png
+refuse "classify to an unwritable place" 'file.*expected' file/x.json classify full/camera.png --out file/x.json
+mkfifo pipe
+run classify full/camera.png --out pipe
+if [ $? -eq 2 ] && [ -p pipe ]; then good "classify replaces files only"; else bad "classify replaces files only" "the pipe is $(stat -c %F pipe)"; fi
+succeed "classify" classify full/camera.png --out found.json
+holds "classify names the frontal markers" found.json \
+  '[2, 5, "standard"].every(m => json.images[0].detections.some(d => d.marker === m))'
+holds "classify names no marker twice" found.json \
+  '(names => new Set(names).size === names.length)(json.images[0].detections.map(d => d.marker).filter(m => m !== null))'
+succeed "classify with --debug" classify full/camera.png --debug stages --out found2.json
+if [ "$(find stages -name '*.png' -size +0 | wc -l)" -eq 6 ]; then good "--debug writes six stages"; else bad "--debug writes six stages" "$(ls stages)"; fi
+cmp -s found.json found2.json && good "--debug changes nothing" || bad "--debug changes nothing" "detections differ"
+
+# --------------------------------------------------------------------------------------------------------- the study
+# The room with a quarter of the pixels: what is tested is that threads change nothing, not the areas.
+run scene export ct-room --out room
+sed -E -i 's/"size": \[640, 480\]/"size": [320, 240]/; s/"camera_matrix": \[[^]]*\]/"field_of_view_deg": [12.18, 9.15]/' room/scene.json
+sed 's/"name": "front-left"/"name": "side-left"/' room/scene.json >room/side.json
+refuse "study of a room whose cameras are neither front nor back" "'side-left'.*expected.*front.*back" bad study markers --scene room/side.json --out bad
+study=(study markers --scene room --stride 14 --spp 1 --poses reference)
+succeed "study on 1 thread" "${study[@]}" --threads 1 --out study1
+succeed "study on 2 threads" "${study[@]}" --threads 2 --json --out study2
+cp stdout.txt result.json
+holds "--json of the study is JSON" result.json 'json.schema === "retrolux/marker-study-1"'
+same "study: 1 and 2 threads, identical tables" study1 study2 hits.csv coverage.csv summary.json
+if [ "$(wc -l <study1/hits.csv)" -eq 25 ]; then good "hits.csv: 2 markers x 6 cameras x 2 positions"; else bad "hits.csv: 2 markers x 6 cameras x 2 positions" "$(wc -l <study1/hits.csv) lines"; fi
+head -1 study1/hits.csv | grep -qx 'marker,pose,camera,row,col,x_mm,y_mm,z_mm,incidence_deg,visible_fraction,hit,detected,reason' &&
+  good "hits.csv: columns" || bad "hits.csv: columns" "$(head -1 study1/hits.csv)"
+head -1 study1/coverage.csv | grep -qx 'marker,pose,row,col,cameras_hit,satisfies' &&
+  good "coverage.csv: columns" || bad "coverage.csv: columns" "$(head -1 study1/coverage.csv)"
+holds "run.json tells how it was made" study1/run.json 'json.schema === "retrolux/run-1" && json.threads === 1 && json.seed === 1'
+[ -s study1/report.html ] && good "report.html" || bad "report.html" "missing"
+
+# --------------------------------------------------------------------------------------------------------------- help
+for command in "" render scene "scene list" "scene show" "scene export" classify study "study markers"; do
+  # shellcheck disable=SC2086
+  succeed "help of retrolux $command" $command --help
+  [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"
+done
+succeed "--version" --version
+no_parts "no temporary file is left"
+
+echo "cli_test: $cases cases, $failed failed"
+[ $failed -eq 0 ]
