@@ -2,8 +2,8 @@
 //
 // The background of a camera is rendered without a marker. For a picture with one, only the pixels that can show
 // it are traced again, with the random numbers that they would have in a full render; all others keep their
-// background value. What is left out is the light that the marker throws onto other surfaces (measured by
-// tests/composed_picture_test.cpp and given in docs/physics.md).
+// background value. What is left out is the light that the marker throws onto other surfaces: far below the noise of a pixel
+// (tests/composed_picture_test.cpp; figures in docs/physics.md).
 #pragma once
 
 #include "renderer/film.h"

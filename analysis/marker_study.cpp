@@ -1,7 +1,9 @@
 #include "analysis/marker_study.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <tuple>
 
 #include "core/atomic_file.h"
 #include "core/hash.h"
@@ -128,7 +130,7 @@ class PoseStudy {
       }
       results.push_back(result);
     }
-    Account(times, composed, retraced);
+    Account(times, position.mirrored, composed, retraced);
     return results;
   }
 
@@ -173,14 +175,14 @@ class PoseStudy {
     study_.kept.push_back({result, file, kind});
   }
 
-  void Account(const MarkerStudy::Times& times, int64_t composed, int64_t retraced) {
+  void Account(const MarkerStudy::Times& times, bool mirrored, int64_t composed, int64_t retraced) {
     const std::lock_guard lock(mutex_);
     study_.times.geometry += times.geometry;
     study_.times.trace += times.trace;
     study_.times.sensor += times.sensor;
     study_.times.identify += times.identify;
     study_.times.write += times.write;
-    study_.composed += composed;
+    (mirrored ? study_.mirrored_composed : study_.composed) += composed;
     study_.retraced_pixels += retraced;
   }
 
@@ -219,14 +221,22 @@ std::vector<GridPosition> Positions(int stride) {
   return positions;
 }
 
-// Spread over the half by a rank-1 lattice (golden ratio), mirrored.
-std::vector<GridPosition> MirroredPositions(int count) {
-  std::vector<GridPosition> positions;
-  for (int i = 0; i < count; ++i) {
-    const double golden = std::fmod(0.6180339887498949 * (i + 1), 1.0);
-    positions.push_back({i * marker_grid::kRows / count, static_cast<int>(golden * marker_grid::kColumns), true});
+// `count` of the positions, or all if there are fewer, evenly spread over their list, mirrored.
+std::vector<GridPosition> Mirrored(const std::vector<GridPosition>& positions, int count) {
+  std::vector<GridPosition> mirrored;
+  const size_t chosen = std::min(positions.size(), static_cast<size_t>(count));
+  for (size_t i = 0; i < chosen; ++i) {
+    mirrored.push_back(positions[(2 * i + 1) * positions.size() / (2 * chosen)]);
+    mirrored.back().mirrored = true;
   }
-  return positions;
+  return mirrored;
+}
+
+template <typename T>
+void CheckNoneTwice(const char* option, std::vector<T> values) {
+  std::sort(values.begin(), values.end());
+  const auto twice = std::adjacent_find(values.begin(), values.end());
+  if (twice != values.end()) throw InputError(fmt::format("{}: {} twice; expected each once", option, *twice));
 }
 
 }  // namespace
@@ -250,6 +260,10 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
   CheckStudyScene(scene);
   options.edges.Check();
   for (const int marker : options.markers) DefaultMarkerSet().ByNumber(marker);
+  CheckNoneTwice("--markers", options.markers);
+  std::vector<std::string> pose_names;
+  for (const Pose& pose : options.poses) pose_names.push_back(pose.name);
+  CheckNoneTwice("--poses", pose_names);
   EnsureWritableFolder(folder / "pictures");
   MarkerStudy study;
   study.options = options;
@@ -258,7 +272,7 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
 
   std::vector<GridPosition> positions = Positions(options.stride);
   const size_t own_half = positions.size();
-  const std::vector<GridPosition> mirrored = MirroredPositions(options.mirrored_checks);
+  const std::vector<GridPosition> mirrored = Mirrored(positions, options.mirrored_checks);
   positions.insert(positions.end(), mirrored.begin(), mirrored.end());
   int64_t background_pixels = 0;
   for (const CameraSpec& camera : scene.cameras) background_pixels += camera.model.width * camera.model.height;
@@ -288,6 +302,10 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
     progress.End();
     study.times.pictures += Since(clock);
   }
+  std::sort(study.kept.begin(), study.kept.end(), [](const KeptPicture& a, const KeptPicture& b) {
+    return std::tie(a.result.pose, a.result.camera, a.result.incidence_deg, a.file) <
+           std::tie(b.result.pose, b.result.camera, b.result.incidence_deg, b.file);
+  });
   return study;
 }
 

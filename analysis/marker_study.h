@@ -71,7 +71,8 @@ struct MarkerStudy {
     double background = 0.0, pictures = 0.0;
     double geometry = 0.0, trace = 0.0, sensor = 0.0, identify = 0.0, write = 0.0;
   } times;
-  int64_t composed = 0;         // pictures that were made (the rest no ray sees)
+  int64_t composed = 0;           // pictures that were made (the rest no ray sees)
+  int64_t mirrored_composed = 0;  // of the mirrored positions
   int64_t retraced_pixels = 0;
 };
 

@@ -73,6 +73,17 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
     reasons[OutcomeName(outcome)] = std::count_if(study.results.begin(), study.results.end(),
                                                   [&](const PictureResult& r) { return r.outcome == outcome; });
   }
+  nlohmann::json kept = nlohmann::json::array();
+  for (const KeptPicture& picture : study.kept) {
+    const PictureResult& r = picture.result;
+    kept.push_back({{"file", picture.file},
+                    {"kind", picture.kind},
+                    {"marker", r.marker},
+                    {"pose", study.poses[static_cast<size_t>(r.pose)].name},
+                    {"camera", study.cameras[static_cast<size_t>(r.camera)]},
+                    {"incidence_deg", r.incidence_deg},
+                    {"outcome", OutcomeName(r.outcome)}});
+  }
   const SymmetryCheck symmetry = CheckSymmetry(study);
   return {{"schema", "retrolux/marker-study-1"},
           {"version", RETROLUX_VERSION},
@@ -90,6 +101,7 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
           {"sets", sets},
           {"outcomes", reasons},
           {"cameras", LastHits(study)},
+          {"kept", kept},
           {"symmetry", {{"pictures", symmetry.pictures}, {"agree", symmetry.agree}}}};
 }
 

@@ -287,7 +287,8 @@ class StudyReport {
         "picture on average. Time of all threads: geometry {:.0f} s, tracing {:.0f} s, sensor {:.0f} s, identification {:.0f} s, "
         "writing {:.0f} s.",
         study_.options.samples_per_pixel, study_.options.seed, study_.options.noise_seed, t.background, t.pictures,
-        study_.composed > 0 ? static_cast<double>(study_.retraced_pixels) / static_cast<double>(study_.composed) : 0.0, t.geometry,
+        static_cast<double>(study_.retraced_pixels) /
+            static_cast<double>(std::max<int64_t>(1, study_.composed + study_.mirrored_composed)), t.geometry,
         t.trace, t.sensor, t.identify, t.write));
     for (const char* file : {"hits.csv", "coverage.csv", "summary.json"}) report_.Attachment(file, ReadTextFile(folder_ / file));
   }

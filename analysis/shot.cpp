@@ -28,6 +28,8 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
   std::vector<double> exposures_s;
   for (const CameraSpec* camera : cameras) exposures_s.push_back(options.ids_only ? 0.0 : ExposureSeconds(scene, *camera));
 
+  EnsureWritableFolder(folder);
+
   const RayScene rays(scene);
   const std::vector<PlacedMarker> markers = PlaceMarkers(scene);
   std::vector<MarkerSurface> surfaces;

@@ -2,6 +2,8 @@
 // 0 good, 1 our fault, 2 the user's input, 3 a check failed, 75 try again.
 #include <fmt/core.h>
 
+#include <charconv>
+
 #include "cli/commands.h"
 #include "core/error.h"
 
@@ -10,15 +12,34 @@ namespace {
 constexpr int kExitOurFault = 1;
 constexpr int kExitTryAgain = 75;
 
+// One line, whatever the text holds.
+std::string OneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return text;
+}
+
+// Whole decimal numbers only: CLI11 takes -1 for the largest number and 010 for 8.
+uint64_t ParseSeed(const std::string& option, const std::string& text) {
+  uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    throw retrolux::InputError(fmt::format("{} {}: expected a whole number from 0 to 18446744073709551615", option, text));
+  }
+  return seed;
+}
+
 int Guarded(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run& run) {
   try {
     const retrolux::LimitThreads limit(global.threads);
     return run();
   } catch (const retrolux::InputError& error) {
-    fmt::print(stderr, "retrolux: {}\n", error.what());
+    fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
     return retrolux::cli::kExitBadInput;
   } catch (const retrolux::TryAgainError& error) {
-    fmt::print(stderr, "retrolux: {}; try again when that is mended\n", error.what());
+    fmt::print(stderr, "retrolux: {}; try again when that is mended\n", OneLine(error.what()));
     return kExitTryAgain;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "retrolux: not enough memory; try again with fewer threads or a smaller picture\n");
@@ -38,13 +59,14 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) global.command_line += std::string(" ") + argv[i];
   Run run;
   CLI::App app{"Pictures of retro-reflective markers as real cameras record them, and what to learn from them."};
-  app.require_subcommand(1);
   app.set_version_flag("--version", RETROLUX_VERSION);
   app.fallthrough();
   app.add_option("--threads", global.threads, "threads to work on; 0: all that the process may use")
       ->check(CLI::Range(0, 1024))->capture_default_str();
-  app.add_option("--seed", global.seed, "seed of the light transport")->capture_default_str();
-  app.add_option("--noise-seed", global.noise_seed, "seed of the sensor noise; default: the seed");
+  app.add_option_function<std::string>("--seed", [&](const std::string& text) { global.seed = ParseSeed("--seed", text); },
+                                       "seed of the light transport, a whole number")->default_str("1");
+  app.add_option_function<std::string>("--noise-seed", [&](const std::string& text) { global.noise_seed = ParseSeed("--noise-seed", text); },
+                                       "seed of the sensor noise; default: the seed");
   app.add_flag("--quiet", global.quiet, "no progress, no result on stdout");
   app.add_flag("--json", global.json, "result as JSON on stdout");
   app.add_option("--progress", global.progress, "auto (a bar on a terminal), json (lines for a log) or none")
@@ -58,7 +80,18 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    fmt::print(stderr, "retrolux: {}; see retrolux --help\n", OneLine(error.what()));
+    return kExitBadInput;
+  } catch (const retrolux::InputError& error) {
+    fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
+    return kExitBadInput;
+  }
+  if (!run) {
+    std::vector<std::string> names;
+    const CLI::App* last = &app;
+    while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
+    for (const CLI::App* sub : last->get_subcommands({})) names.push_back(sub->get_name());
+    fmt::print(stderr, "retrolux: no subcommand; expected one of {}\n", retrolux::JoinNames(names));
     return kExitBadInput;
   }
   return Guarded(global, run);

@@ -1,11 +1,11 @@
 // retrolux render SCENE --out DIR
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 
 #include "analysis/shot.h"
 #include "cli/commands.h"
-#include "core/atomic_file.h"
 #include "scenes/scene_json.h"
 
 namespace retrolux::cli {
@@ -24,9 +24,11 @@ struct RenderCommand {
 // "WxH"
 std::pair<int, int> ParseSize(const std::string& text) {
   int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > 16384 ||
-      height > 16384) {
+  const char* const end = text.data() + text.size();
+  const auto [cross, width_error] = std::from_chars(text.data(), end, width);
+  const bool split = width_error == std::errc{} && cross != end && *cross == 'x';
+  const auto [rest, height_error] = std::from_chars(split ? cross + 1 : end, end, height);
+  if (!split || height_error != std::errc{} || rest != end || width < 1 || height < 1 || width > 16384 || height > 16384) {
     throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in px, each from 1 to 16384", text));
   }
   return {width, height};
@@ -42,7 +44,6 @@ int RunRender(RenderCommand command, const GlobalOptions& global) {
   command.shot.rings = command.rings == "own" ? RingChoice::kOwn : RingChoice::kAll;
   command.shot.trace.seed = global.seed;
   command.shot.noise_seed = global.NoiseSeed();
-  EnsureWritableFolder(command.out);
   const auto progress = MakeProgress(global);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::string> files = RenderShot(scene, command.shot, command.out, *progress);

@@ -188,7 +188,6 @@ int RunExport(const GlobalOptions& global, const SceneOptions& options) {
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run) {
   const auto options = std::make_shared<SceneOptions>();
   CLI::App* scene = app.add_subcommand("scene", "List, describe or write out scenes");
-  scene->require_subcommand(1);
 
   CLI::App* list = scene->add_subcommand("list", "The built-in scenes");
   list->callback([&global, &run] { run = [&global] { return RunList(global); }; });

@@ -77,7 +77,6 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
   command.study.seed = global.seed;
   command.study.noise_seed = global.NoiseSeed();
   command.study.keep = command.keep == "all" ? Keep::kAll : command.keep == "misses" ? Keep::kMisses : Keep::kSamples;
-  EnsureWritableFolder(command.out);
   const auto progress = MakeProgress(global);
   const std::string started = UtcNow();
   const auto start = std::chrono::steady_clock::now();
@@ -98,7 +97,6 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
 
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run) {
   CLI::App* study = app.add_subcommand("study", "The studies; each writes report.html, its tables and run.json");
-  study->require_subcommand(1);
   auto command = std::make_shared<StudyMarkersCommand>();
   CLI::App* sub = study->add_subcommand(
       "markers", "Where on the mask do the CT room's cameras identify markers? (thesis chapter 3)");

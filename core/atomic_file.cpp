@@ -44,7 +44,14 @@ void SyncFile(const fs::path& path) {
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path final_path)
-    : final_(std::move(final_path)), temporary_(TemporaryBeside(final_)) {}
+    : final_(std::move(final_path)), temporary_(TemporaryBeside(final_)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(final_, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    // Renaming over it would replace a device or a pipe.
+    throw InputError::At(final_, "", "is no regular file", "the name of a file");
+  }
+}
 
 AtomicFile::~AtomicFile() {
   if (committed_) return;
@@ -93,6 +100,7 @@ std::string ReadTextFile(const fs::path& path) {
 }
 
 void EnsureWritableFolder(const fs::path& folder) {
+  if (folder.empty()) throw InputError("an empty path; expected the name of a folder");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) ThrowErrno(folder, "make the folder", error.value());

@@ -33,25 +33,23 @@ Size SizeOf(const ExrChannel& channel) {
   throw InputError(message + "; expected a place that can be written to");
 }
 
-// Writes `pixels`, laid out as `spec` says, through OpenImageIO.
-void WriteThrough(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc format,
-                  const void* pixels) {
-  AtomicFile atomic(file);
-  auto output = OIIO::ImageOutput::create(atomic.Temporary().string());
-  if (!output) ThrowWrite(file, OIIO::geterror());
-  if (!output->open(atomic.Temporary().string(), spec)) ThrowWrite(file, output->geterror());
-  if (!output->write_image(format, pixels)) ThrowWrite(file, output->geterror());
-  if (!output->close()) ThrowWrite(file, output->geterror());
-  atomic.Commit();
+// libpng says what it thinks of a cut-off file on stderr; so we look first.
+void CheckPngIsWhole(const fs::path& file) {
+  const std::string bytes = ReadTextFile(file);
+  if (!bytes.starts_with("\x89PNG") || bytes.find("IEND", bytes.size() < 12 ? 0 : bytes.size() - 12) != std::string::npos) return;
+  throw InputError::At(file, "", "a PNG file that is cut off", "a whole picture");
 }
+
+std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::unique_ptr<OIIO::ImageInput> Open(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
-    throw InputError::At(file, "", "no such file", "a picture");
+    throw InputError::At(file, "", fs::is_directory(file, error) ? "is a folder" : "no such file", "a picture");
   }
+  CheckPngIsWhole(file);
   auto input = OIIO::ImageInput::open(file.string());
-  if (!input) throw InputError::At(file, "", OIIO::geterror(), "a picture");
+  if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
   return input;
 }
 
@@ -91,6 +89,8 @@ void WriteExr(const fs::path& file, const ExrImage& image) {
                                                                                  : OIIO::TypeFloat);
   }
   spec.attribute("compression", "zip");
+  // OpenImageIO would write the time of day: the same picture must have the same bytes.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [name, value] : image.attributes) spec.attribute(name, value);
 
   // FLOAT and UINT are both four bytes, so that native pixels are an array of words.
@@ -106,7 +106,13 @@ void WriteExr(const fs::path& file, const ExrImage& image) {
         },
         image.channels[c].plane);
   }
-  WriteThrough(file, spec, OIIO::TypeUnknown, native.data());
+  AtomicFile atomic(file);
+  auto output = OIIO::ImageOutput::create(atomic.Temporary().string());
+  if (!output) ThrowWrite(file, OIIO::geterror());
+  if (!output->open(atomic.Temporary().string(), spec)) ThrowWrite(file, output->geterror());
+  if (!output->write_image(OIIO::TypeUnknown, native.data())) ThrowWrite(file, output->geterror());
+  if (!output->close()) ThrowWrite(file, output->geterror());
+  atomic.Commit();
 }
 
 ExrImage ReadExr(const fs::path& file) {
@@ -125,7 +131,7 @@ ExrImage ReadExr(const fs::path& file) {
           plane.data.resize(pixels);
           const OIIO::TypeDesc format = ids ? OIIO::TypeUInt32 : OIIO::TypeFloat;
           if (!input->read_image(0, 0, c, c + 1, format, plane.data.data())) {
-            throw InputError::At(file, "", input->geterror(), "a whole picture");
+            throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
           }
         },
         channel.plane);
@@ -139,16 +145,30 @@ ExrImage ReadExr(const fs::path& file) {
   return image;
 }
 
+namespace {
+
+// Encoded in memory and written by ourselves: OpenImageIO's PNG writer does not notice a full disk.
+std::string EncodePng(const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const void* pixels) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto output = OIIO::ImageOutput::create("memory.png", &memory);
+  RETROLUX_CHECK(output && output->open("memory.png", spec) && output->write_image(format, pixels) && output->close(),
+                 "PNG in memory");
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
 void WritePng(const fs::path& file, const DigitalImage& image) {
   const bool wide = image.bits > 8;
   OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1, wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
   spec.attribute("png:compressionLevel", 1);
   if (wide) {
-    WriteThrough(file, spec, OIIO::TypeUInt16, image.dn.data.data());
+    WriteTextFile(file, EncodePng(spec, OIIO::TypeUInt16, image.dn.data.data()));
     return;
   }
   const std::vector<uint8_t> bytes(image.dn.data.begin(), image.dn.data.end());
-  WriteThrough(file, spec, OIIO::TypeUInt8, bytes.data());
+  WriteTextFile(file, EncodePng(spec, OIIO::TypeUInt8, bytes.data()));
 }
 
 DigitalImage ReadGrey(const fs::path& file) {
@@ -160,7 +180,7 @@ DigitalImage ReadGrey(const fs::path& file) {
   image.dn = Plane<uint16_t>(spec.width, spec.height);
   std::vector<float> pixels(image.dn.data.size() * channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data())) {
-    throw InputError::At(file, "", input->geterror(), "a whole picture");
+    throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
   }
   const float full_scale = image.bits == 8 ? 255.0f : 65535.0f;
   for (size_t i = 0; i < image.dn.data.size(); ++i) {
@@ -173,18 +193,11 @@ DigitalImage ReadGrey(const fs::path& file) {
 }
 
 void WriteRgbPng(const fs::path& file, int width, int height, const std::vector<uint8_t>& rgb) {
-  WriteThrough(file, OIIO::ImageSpec(width, height, 3, OIIO::TypeUInt8), OIIO::TypeUInt8, rgb.data());
+  WriteTextFile(file, EncodeRgbPng(width, height, rgb));
 }
 
 std::string EncodeRgbPng(int width, int height, const std::vector<uint8_t>& rgb) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
-  auto output = OIIO::ImageOutput::create("memory.png", &memory);
-  RETROLUX_CHECK(output && output->open("memory.png", spec) &&
-                     output->write_image(OIIO::TypeUInt8, rgb.data()) && output->close(),
-                 "PNG in memory");
-  return {bytes.begin(), bytes.end()};
+  return EncodePng(OIIO::ImageSpec(width, height, 3, OIIO::TypeUInt8), OIIO::TypeUInt8, rgb.data());
 }
 
 }  // namespace retrolux

@@ -42,7 +42,7 @@ DigitalImage ReadGrey(const std::filesystem::path& file);
 void WriteRgbPng(const std::filesystem::path& file, int width, int height,
                  const std::vector<uint8_t>& rgb);
 
-// The PNG encoding of a grey picture in memory, for pages that carry their pictures.
+// The PNG file of an RGB picture in memory, for pages that carry their pictures.
 std::string EncodeRgbPng(int width, int height, const std::vector<uint8_t>& rgb);
 
 }  // namespace retrolux

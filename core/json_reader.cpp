@@ -10,6 +10,8 @@ namespace {
 
 // What a node is, in few words, for "found ...".
 std::string Describe(const nlohmann::json& node) {
+  // Not dumped: a file from elsewhere may nest deeper than the stack allows.
+  if (node.is_structured()) return fmt::format("{} of {} entries", node.is_array() ? "an array" : "an object", node.size());
   std::string text = node.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return fmt::format("{} {}", node.type_name(), text);

@@ -38,6 +38,8 @@ class Coat {
   float BodyCos(const Vec3f& wo, const Vec3f& wi) const {
     return (1.0f - Albedo(wo)) * (1.0f - Albedo(wi)) / (1.0f - albedo_.Mean()) * wi.z() / kPiF;
   }
+  // Share of the light along w that passes the coat, relative to normal incidence.
+  float Passes(const Vec3f& w) const { return (1.0f - Albedo(w)) / (1.0f - albedo_.At(1.0f)); }
   // Share of the light from wo that the coat reflects.
   float Albedo(const Vec3f& wo) const { return albedo_.At(wo.z()); }
 

@@ -13,7 +13,8 @@ double DichroicFilter::Transmission(double nm, double sin_theta) const {
   const double x = 2.0 * (nm - CentreAt(sin_theta)) / bandwidth_nm;
   const double x2 = x * x;
   const double x8 = x2 * x2 * x2 * x2;
-  return peak_transmission * std::exp(-std::numbers::ln2 * x8) + std::exp(-std::numbers::ln10 * optical_density);
+  const double floor = std::exp(-std::numbers::ln10 * optical_density);
+  return floor + (peak_transmission - floor) * std::exp(-std::numbers::ln2 * x8);
 }
 
 DichroicFilter ReadFilter(JsonReader json) {
@@ -23,6 +24,10 @@ DichroicFilter ReadFilter(JsonReader json) {
   filter.peak_transmission = json.Number("peak_transmission", 0.01, 1.0, filter.peak_transmission);
   filter.optical_density = json.Number("optical_density", 1.0, 12.0, filter.optical_density);
   filter.effective_index = json.Number("effective_index", 1.1, 5.0, filter.effective_index);
+  if (filter.peak_transmission <= std::pow(10.0, -filter.optical_density)) {
+    json.Fail(fmt::format("a peak of {} below the floor of optical density {}", filter.peak_transmission, filter.optical_density),
+              "peak_transmission above 10^-optical_density");
+  }
   json.Finish();
   return filter;
 }

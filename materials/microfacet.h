@@ -12,11 +12,10 @@ namespace retrolux::ggx {
 // Distribution of microfacet normals, 1/sr. The tangent comes from the horizontal components, so that
 // lobes far below a degree keep their digits in single precision.
 inline float Distribution(const Vec3f& h, float alpha) {
-  const float cos2 = h.z() * h.z();
-  if (cos2 <= 0.0f) return 0.0f;
-  const float tan2 = (h.x() * h.x() + h.y() * h.y()) / cos2;
-  const float t = 1.0f + tan2 / (alpha * alpha);
-  return 1.0f / (kPiF * alpha * alpha * cos2 * cos2 * t * t);
+  if (h.z() <= 0.0f) return 0.0f;
+  const float alpha2 = alpha * alpha;
+  const float c = h.z() * h.z() + (h.x() * h.x() + h.y() * h.y()) / alpha2;
+  return 1.0f / (kPiF * alpha2 * c * c);
 }
 
 inline float Lambda(const Vec3f& w, float alpha) {

@@ -7,10 +7,10 @@
 //   ior, cover_roughness of the cover; ior 1 means no cover                 default 1.5, 0.1
 //
 // With v' = (-v_x, -v_y, v_z), the view mirrored about the normal, a lobe is
-//   f = albedo sqrt(w(v) w(l)) D(b) G2(v', l) / (4 cos cos),   b = normalise(v' + l).
+//   f = albedo sqrt(w(v) w(l)) D(b) G2(v', l) / (4 cos cos),   b = normalise(v' + l),
+// times what passes the cover at v and l relative to normal incidence (the albedos are measured with the cover on).
 // Exchanging v and l mirrors b about the normal, which changes neither D nor G2; the weight is symmetric:
 // the model is reciprocal. R_A = f cos cos: at normal incidence R_A(0) = sum of albedo / (4 pi alpha^2).
-#include "core/data_path.h"
 #include "core/sampling.h"
 #include "materials/bsdf_factory.h"
 #include "materials/coat.h"
@@ -50,6 +50,7 @@ class Retroreflector : public Bsdf {
     if (cover_) {
       const Coat::Specular specular = cover_->EvaluateSpecular(wo, wi);
       pdf += shares.cover * specular.pdf;
+      retro *= cover_->Passes(wo) * cover_->Passes(wi);
       value.f_cos = retro + specular.f_cos + body_.At(nm) * cover_->BodyCos(wo, wi);
     } else {
       value.f_cos = retro + body_.At(nm) * (wi.z() / kPiF);
@@ -119,15 +120,17 @@ std::shared_ptr<const Bsdf> MakeRetroreflector(JsonReader& json) {
   std::vector<Lobe> lobes = ReadLobes(json.Child("lobes"));
   EntranceWeight weight;
   if (json.Has("entrance_weight")) {
-    weight = EntranceWeight::FromTable(DataPath(json.String("entrance_weight")));
+    weight = EntranceWeight::FromTable(ReadTablePath(json, "entrance_weight"));
   }
   Spectrum body = ReadSpectrum(json, "diffuse_reflectance", 0.0, 1.0, 0.27);
   const auto ior = static_cast<float>(json.Number("ior", 1.0, 4.0, 1.5));
   const auto alpha = static_cast<float>(json.Number("cover_roughness", 0.001, 1.0, 0.1));
   std::optional<Coat> cover;
   if (ior > 1.0f) cover.emplace(ior, alpha);
+  // With E the coat's albedo and x = 1 - E: albedo x^2 / x0^2 + 1 - x + x body <= 1 for all angles if albedo / x0 + body <= 1.
+  const float passes = cover ? 1.0f - cover->Albedo(Vec3f::UnitZ()) : 1.0f;
   float total = body.Max();
-  for (const Lobe& lobe : lobes) total += lobe.albedo;
+  for (const Lobe& lobe : lobes) total += lobe.albedo / passes;
   if (total > 1.0f) {
     json.Fail(fmt::format("lobes and body that reflect {:.3f} of the light", total),
               "albedos and diffuse_reflectance that sum to at most 1");

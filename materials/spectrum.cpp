@@ -59,6 +59,10 @@ float Spectrum::Max() const {
   return samples_.empty() ? constant_ : *std::max_element(samples_.begin(), samples_.end());
 }
 
+float Spectrum::Min() const {
+  return samples_.empty() ? constant_ : *std::min_element(samples_.begin(), samples_.end());
+}
+
 Spectrum LedSpectrum(double peak_nm, double fwhm_nm) {
   return Spectrum::FromFunction([&](double nm) {
            const double x = (nm - peak_nm) / fwhm_nm;
@@ -70,7 +74,23 @@ Spectrum LedSpectrum(double peak_nm, double fwhm_nm) {
 Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max, double fallback) {
   if (!json.Has(key)) return Spectrum::Constant(fallback);
   if (!json.Child(key).IsString()) return Spectrum::Constant(json.Number(key, min, max));
-  return Spectrum::FromTable(DataPath(json.String(key)));
+  const std::filesystem::path file = ReadTablePath(json, key);
+  const Spectrum spectrum = Spectrum::FromTable(file);
+  if (spectrum.Max() > static_cast<float>(max) || spectrum.Min() < static_cast<float>(min)) {
+    throw InputError::At(file, "", fmt::format("values from {} to {}", spectrum.Min(), spectrum.Max()),
+                         fmt::format("numbers from {} to {}", min, max));
+  }
+  return spectrum;
+}
+
+std::filesystem::path ReadTablePath(JsonReader& json, const std::string& key) {
+  const JsonReader node = json.Child(key);
+  const std::string name = node.AsString();
+  try {
+    return DataPath(name);
+  } catch (const InputError&) {
+    node.Fail(fmt::format("no table \"{}\"", name), "a table of the data folder, such as materials/data/fluorescent.csv");
+  }
 }
 
 }  // namespace retrolux

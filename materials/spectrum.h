@@ -56,6 +56,7 @@ class Spectrum {
   // The same shape with the integral 1. The integral must not be zero.
   Spectrum Normalised() const;
   float Max() const;
+  float Min() const;
 
  private:
   static constexpr int kSamples = static_cast<int>(kMaxWavelength_nm - kMinWavelength_nm) + 1;
@@ -69,5 +70,8 @@ Spectrum LedSpectrum(double peak_nm, double fwhm_nm);
 // A reflectance or efficiency as scenes give it: a number from `min` to `max`, or the name of a table
 // under the data folder ("materials/data/x.csv").
 Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max, double fallback);
+
+// The path of the data table that a key names; the error says where the key stands.
+std::filesystem::path ReadTablePath(JsonReader& json, const std::string& key);
 
 }  // namespace retrolux

@@ -32,9 +32,17 @@ double ExposureSeconds(const Scene& scene, const CameraSpec& camera) {
   }
   const double radiance = FrontalMarkerRadiance(camera, *scene.materials.at(exposure.marker_material).bsdf, exposure.distance_mm);
   const CameraResponse one_second(camera, {LedSpectrum(camera.ring->peak_nm, camera.ring->fwhm_nm)}, 1.0);
+  if (!(radiance > 0.0)) {
+    throw InputError(fmt::format("camera '{}': a frontal marker of '{}' sends no light in its ring's light; expected a ring and a material that "
+                                 "do, or exposure.time_s in seconds", camera.model.name, exposure.marker_material));
+  }
   const double electrons_per_s = radiance * one_second.ExpectedElectrons(0, 1.0) + camera.sensor.dark_current_e_s;
   const double max_dn = (1 << camera.sensor.adc_bits) - 1;
   const double wanted_e = (exposure.fraction * max_dn - camera.sensor.offset_dn) / GainDnPerElectron(camera.sensor);
+  if (!(wanted_e > 0.0)) {
+    throw InputError(fmt::format("camera '{}': exposure.fraction {} lies below the sensor's offset; expected more, or exposure.time_s in seconds",
+                                 camera.model.name, exposure.fraction));
+  }
   return wanted_e / electrons_per_s;
 }
 

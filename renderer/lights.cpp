@@ -62,11 +62,11 @@ Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice, cons
   environment_radiance_ = static_cast<float>(scene.ambient.environment_w_m2_sr);
   if (!panels_.empty()) {
     group_of_body_[body] = GroupCount();
-    groups_.push_back({"ambient", Kind::kPanels, ambient, body});
+    groups_.push_back({kAmbientGroup, Kind::kPanels, ambient, body});
     double area = 0.0;
     for (const LightPanel& panel : panels_) panel_areas_cumulative_.push_back(area += panel.edge_u.cross(panel.edge_v).norm());
   } else if (environment_radiance_ > 0.0f) {
-    groups_.push_back({"ambient", Kind::kEnvironment, ambient, body});
+    groups_.push_back({kAmbientGroup, Kind::kEnvironment, ambient, body});
   }  // panels and environment together are one group
   if (GroupCount() > kMaxLightGroups) {
     throw InputError(fmt::format("{} light groups; expected at most {}", GroupCount(), kMaxLightGroups));

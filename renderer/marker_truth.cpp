@@ -24,7 +24,6 @@ std::vector<Vec3d> OutlineOnSurface(const RayScene& rays, const PlacedMarker& ma
     const Vec2d a = outline[i], b = outline[(i + 1) % outline.size()];
     const int pieces = step > 0.0 ? std::max(1, static_cast<int>(std::ceil((b - a).norm() / step))) : 1;
     for (int k = 0; k < pieces; ++k) {
-      // A hair inside, so that a corner at the rim of the square still meets the surface above it.
       const Vec2d place = a + (b - a) * k / pieces;
       if (const auto hit = OntoSurface(rays, marker, place)) points.push_back(hit->position.cast<double>());
     }

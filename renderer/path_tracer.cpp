@@ -72,16 +72,14 @@ void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, con
   }
   const float sum = unshadowed.sum();
   if (sum <= 0.0f) return;
-  int group = 0;
   float rest = choice * sum;
-  int last = 0;
-  for (; group < lights_.GroupCount(); ++group) {
+  int chosen = 0;
+  for (int group = 0; group < lights_.GroupCount() && rest >= 0.0f; ++group) {
     if (unshadowed[group] <= 0.0f) continue;
-    last = group;
+    chosen = group;
     rest -= unshadowed[group];
-    if (rest < 0.0f) break;
   }
-  if (!rays_.Occluded(origin, targets[static_cast<size_t>(last)])) radiance[last] += sum;
+  if (!rays_.Occluded(origin, targets[static_cast<size_t>(chosen)])) radiance[chosen] += sum;
 }
 
 PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, const Spectral& nm,
@@ -93,7 +91,7 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
     const float share = pdf > 0.0f ? BalanceHeuristic(pdf, emission.pdf) : 1.0f;
     path.radiance[emission.group] += throughput[lights_.SpectrumOf(emission.group)] * emission.radiance * share;
   };
-  for (int surface = 0; surface < options_.max_surfaces; ++surface) {
+  for (int surface = 0;; ++surface) {
     const std::optional<SurfaceHit> hit = rays_.Intersect(origin, direction);
     if (!hit) {
       if (const auto emission = lights_.Environment()) add_emission(*emission);
@@ -103,6 +101,7 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
       if (const auto emission = lights_.Emitted(origin, direction, *hit)) add_emission(*emission);
       break;
     }
+    if (surface == options_.max_surfaces) break;  // only what emits there counts
     const Vertex vertex = MakeVertex(direction, *hit);
     if (surface == 0) path.marker = vertex.marker;
     const bool every_group = surface == 0 && options_.direct == TraceOptions::Direct::kEveryGroup;

@@ -17,7 +17,7 @@ struct TraceOptions {
   // groups one by one are noisier. Both are unbiased. Further surfaces use kOneOfAll always.
   enum class Direct { kEveryGroup, kOneOfAll };
   Direct direct = Direct::kEveryGroup;
-  int max_surfaces = 6;  // of a path
+  int max_surfaces = 6;  // that scatter, of a path
   // Chance of a path to go on, for each unit of the throughput that it carries (at most 0.95). Lower is faster, and noisier
   // in the indirect light only.
   float roulette = 1.0f;

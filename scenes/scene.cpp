@@ -1,5 +1,7 @@
 #include "scenes/scene.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -90,6 +92,24 @@ class UniqueNames {
   std::set<std::string> seen_;
 };
 
+// Cameras and poses name output files.
+void CheckFileName(const std::string& name, const std::filesystem::path& file, const char* kind) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '+' || c == '.';
+  });
+  if (!plain || name.starts_with(".") || name == kAmbientGroup) {
+    throw InputError::At(file, kind, fmt::format("the name '{}'", name),
+                         "letters, digits, '_', '-', '+' and '.', not first a '.', and not 'ambient' (it names output files)");
+  }
+}
+
+void CheckSensor(const SensorSpec& sensor, const std::filesystem::path& file, const std::string& place) {
+  const double max_dn = (1 << sensor.adc_bits) - 1;
+  if (!(sensor.offset_dn < max_dn)) {
+    throw InputError::At(file, place, fmt::format("offset_dn {} of an ADC that ends at {}", sensor.offset_dn, max_dn), "a smaller offset");
+  }
+}
+
 void CheckRotation(const Mat3d& r, const std::filesystem::path& file, const std::string& place) {
   if (!((r * r.transpose() - Mat3d::Identity()).norm() < 1e-6) || r.determinant() < 0.0) {
     throw InputError::At(file, place, "a matrix that is no rotation (is 'up' along the line of sight?)", "a rigid transform");
@@ -140,13 +160,18 @@ void CheckScene(const Scene& scene, const std::filesystem::path& file) {
   if (scene.cameras.empty()) throw InputError::At(file, "cameras", "none", "at least one camera");
   for (const CameraSpec& camera : scene.cameras) {
     cameras.Add(camera.model.name);
+    CheckFileName(camera.model.name, file, "cameras");
+    CheckSensor(camera.sensor, file, fmt::format("camera '{}'", camera.model.name));
     CheckRotation(camera.model.camera_from_world.rotation, file, fmt::format("camera '{}'", camera.model.name));
   }
   if (scene.exposure.time_s <= 0.0 && !scene.materials.contains(scene.exposure.marker_material)) {
     throw InputError::At(file, "exposure", fmt::format("marker_material '{}'", scene.exposure.marker_material),
                          "a material of the scene");
   }
-  for (const Pose& pose : scene.poses) poses.Add(pose.name);
+  for (const Pose& pose : scene.poses) {
+    poses.Add(pose.name);
+    CheckFileName(pose.name, file, "poses");
+  }
   for (const MarkerSpec& marker : scene.markers) {
     markers.Add(marker.name);
     const std::string place = fmt::format("marker '{}'", marker.name);

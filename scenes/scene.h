@@ -72,7 +72,8 @@ struct LightPanel {
   Vec3d corner, edge_u, edge_v;
 };
 
-// The light of the room; light group "ambient".
+// The light of the room, and the name of its light group.
+inline constexpr const char* kAmbientGroup = "ambient";
 struct AmbientLight {
   std::string spectrum = "materials/data/fluorescent.csv";  // relative emission over wavelength
   double radiance_w_m2_sr = 0.0;         // of the panels, 400 to 1100 nm

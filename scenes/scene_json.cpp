@@ -210,7 +210,7 @@ Scene LoadScene(const std::string& name_or_path) {
   }
   const fs::path path = name_or_path;
   if (fs::is_directory(path)) return ReadSceneFile(path / "scene.json");
-  if (fs::exists(path)) return ReadSceneFile(path);
+  if (fs::is_regular_file(path)) return ReadSceneFile(path);
   throw InputError(
       fmt::format("no scene '{}'; expected {}, or the path of a scene.json or of its folder",
                   name_or_path, JoinNames(names)));

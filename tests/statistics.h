@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace retrolux::statistics {
@@ -32,18 +33,24 @@ inline double UpperGamma(double a, double x) {
 // The probability of counts that lie at least this far from the expected ones. Neighbouring cells are pooled until
 // each expects five or more.
 inline double ChiSquarePValue(const std::vector<double>& observed, const std::vector<double>& expected) {
-  double chi2 = 0.0, o = 0.0, e = 0.0;
-  int cells = 0;
+  std::vector<std::pair<double, double>> cells;  // observed, expected
+  bool open = false;
   for (size_t i = 0; i < observed.size(); ++i) {
-    o += observed[i];
-    e += expected[i];
-    if (e < 5.0) continue;
-    chi2 += (o - e) * (o - e) / e;
-    ++cells;
-    o = e = 0.0;
+    if (!open) cells.emplace_back(0.0, 0.0);
+    cells.back().first += observed[i];
+    cells.back().second += expected[i];
+    open = cells.back().second < 5.0;
   }
-  if (cells < 2) return 1.0;
-  return UpperGamma(0.5 * (cells - 1), 0.5 * chi2);
+  if (open && cells.size() > 1) {  // what is left joins the cell before it
+    const auto rest = cells.back();
+    cells.pop_back();
+    cells.back().first += rest.first;
+    cells.back().second += rest.second;
+  }
+  if (cells.size() < 2) return 1.0;
+  double chi2 = 0.0;
+  for (const auto& [o, e] : cells) chi2 += (o - e) * (o - e) / e;
+  return UpperGamma(0.5 * static_cast<double>(cells.size() - 1), 0.5 * chi2);
 }
 
 // Two-sided probability of a standard normal number at least this far from zero.

@@ -1,0 +1,208 @@
+// Does each JSON file that the program writes, and each that it comes with, keep to its published schema?
+//     node schemas_test.mjs RETROLUX_BINARY [STUDY_FOLDER]
+// Makes small outputs in a folder of its own under TMPDIR, removed at the end; with the folder of a finished marker
+// study, that is checked instead of a new small one. The schema of a file is scenes/schema/NAME.schema.json for
+// "schema": "retrolux/NAME". Prints a line for each violation; exit codes: 0 good, 1 violations, 2 not to be run.
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const ROOT = fileURLToPath(new URL('..', import.meta.url));
+const SCHEMAS = path.join(ROOT, 'scenes', 'schema');
+const ENDING = '.schema.json';
+const LIMIT_MS = 300000; // of a command
+
+function leave(message) {
+  console.error(`schemas_test: ${message}`);
+  process.exit(2);
+}
+
+function loadValidator() {
+  try {
+    return createRequire(path.join(ROOT, 'analysis', 'report', 'package.json'))('ajv/dist/2020').default;
+  } catch {
+    return leave('ajv is not installed (npm ci in analysis/report); run scripts/setup.sh');
+  }
+}
+
+if (process.argv.length < 3 || process.argv.length > 4)
+  leave('usage: schemas_test.mjs RETROLUX_BINARY [STUDY_FOLDER]');
+const binary = path.resolve(process.argv[2]);
+const givenStudy = process.argv[3] && path.resolve(process.argv[3]);
+const Ajv = loadValidator();
+
+const violations = [];
+const checked = new Map(); // schema name -> documents
+
+/** Comments become blanks; what looks like one within a string stays. */
+const withoutComments = (text) =>
+  text.replace(/"(?:[^"\\]|\\.)*"|\/\/[^\n]*|\/\*[\s\S]*?\*\//g, (m) => (m[0] === '"' ? m : ' '));
+
+/**
+ * Of a value that fits none of several alternatives, only the errors of the one it is meant to be: where types and
+ * constants fit, with the fewest errors. If several are as near, one error that names them all.
+ */
+function withoutOtherAlternatives(errors) {
+  let left = errors;
+  // ajv lists the errors of the alternatives before the oneOf that failed, so the innermost come first.
+  for (const whole of errors.filter((e) => e.keyword === 'oneOf' && e.params.passingSchemas === null)) {
+    const at = (e) => e.instancePath === whole.instancePath;
+    const below = (e) => at(e) || e.instancePath.startsWith(`${whole.instancePath}/`);
+    const alternatives = new Map();
+    for (const e of left.filter((e) => below(e) && e.schemaPath.startsWith(`${whole.schemaPath}/`))) {
+      const number = e.schemaPath.slice(whole.schemaPath.length + 1).split('/')[0];
+      alternatives.set(number, [...(alternatives.get(number) ?? []), e]);
+    }
+    const of = [...alternatives.values()];
+    const other = (e) =>
+      (e.keyword === 'type' && at(e)) || (e.keyword === 'const' && e.instancePath === `${whole.instancePath}/type`);
+    const meant = of.filter((list) => !list.some(other));
+    const fewest = Math.min(...meant.map((list) => list.length));
+    const nearest = meant.filter((list) => list.length === fewest);
+    const dropped = new Set([whole, ...of.flat()]);
+    const referred = left.some((e) => below(e) && !dropped.has(e)); // of an alternative that is a $ref
+    left = left.filter((e) => !dropped.has(e));
+    if (nearest.length === 1) left.push(...nearest[0]);
+    else if (nearest.length > 1) left.push({ ...nearest[0][0], message: nearest.map((list) => list[0].message).join(' or ') });
+    else if (!referred) left.push(whole);
+  }
+  return left;
+}
+
+function describe(error) {
+  const { params } = error;
+  const detail =
+    params.additionalProperty ?? params.allowedValues?.join(', ') ?? JSON.stringify(params.allowedValue) ?? '';
+  return `${error.instancePath || '/'}: ${error.message}${detail === '' ? '' : ` (${detail})`}`;
+}
+
+function loadSchemas() {
+  const ajv = new Ajv({ allErrors: true, strict: true, strictRequired: false });
+  const schemas = new Map();
+  for (const file of fs.readdirSync(SCHEMAS).sort()) {
+    const name = `retrolux/${file.slice(0, -ENDING.length)}`;
+    try {
+      const schema = JSON.parse(fs.readFileSync(path.join(SCHEMAS, file), 'utf8'));
+      if (!file.endsWith(ENDING) || schema.$id !== name || schema.properties.schema.const !== name)
+        violations.push(`${file}: $id and properties/schema should say what the file's name says, "${name}"`);
+      schemas.set(name, { schema, validate: ajv.compile(schema) });
+    } catch (error) {
+      violations.push(`${file}: ${error.message}`);
+    }
+  }
+  return schemas;
+}
+
+/** The value keeps to its schema, and the schema is no sieve: it refuses the same with a key more or a key less. */
+function checkDocument(schemas, name, value) {
+  const entry = schemas.get(value?.schema);
+  if (!entry) {
+    violations.push(`${name}: /schema: no schema is published for ${JSON.stringify(value?.schema)}`);
+    return;
+  }
+  const { schema, validate } = entry;
+  checked.set(value.schema, (checked.get(value.schema) ?? 0) + 1);
+  if (!validate(value)) {
+    for (const error of withoutOtherAlternatives(validate.errors)) violations.push(`${name}: ${describe(error)}`);
+    return;
+  }
+  if (validate({ ...value, no_such_key: 0 })) violations.push(`${value.schema}: allows unknown keys in ${name}`);
+  for (const key of schema.required) {
+    const { [key]: _, ...rest } = value;
+    if (validate(rest)) violations.push(`${value.schema}: allows ${name} without '${key}'`);
+  }
+}
+
+function checkText(schemas, name, text) {
+  let value;
+  try {
+    value = JSON.parse(text);
+  } catch (error) {
+    violations.push(`${name}: no JSON: ${error.message}`);
+    return;
+  }
+  checkDocument(schemas, name, value);
+}
+
+/** All JSON files below a folder; at least one. */
+function checkFolder(schemas, folder, name) {
+  const files = fs.readdirSync(folder, { withFileTypes: true });
+  let found = 0;
+  for (const file of files) {
+    const place = path.join(folder, file.name);
+    if (file.isDirectory()) {
+      found += checkFolder(schemas, place, `${name}/${file.name}`);
+    } else if (file.name.endsWith('.json')) {
+      checkText(schemas, `${name}/${file.name}`, fs.readFileSync(place, 'utf8'));
+      ++found;
+    }
+  }
+  return found;
+}
+
+/** Standard output of the program, or null and a violation. */
+function run(work, ...args) {
+  const done = spawnSync(binary, args, { cwd: work, encoding: 'utf8', timeout: LIMIT_MS, maxBuffer: 1 << 26 });
+  if (done.status === 0) return done.stdout;
+  const why = done.error?.message ?? `exit code ${done.status}: ${done.stderr.trim().split('\n').at(-1)}`;
+  violations.push(`retrolux ${args.join(' ')}: ${why}`);
+  return null;
+}
+
+function checkOutputs(schemas, work) {
+  run(work, 'render', 'oval', '--size', '64x48', '--spp', '1', '--out', 'small');
+  run(work, 'render', 'oval', '--size', '64x48', '--ids-only', '--out', 'ids');
+  run(work, 'render', 'oval', '--spp', '1', '--out', 'full'); // large enough to identify markers
+  const room = ['--size', '32x24', '--spp', '1', '--camera', 'back-left,front-middle', '--pose', 'start'];
+  run(work, 'render', 'ct-room', ...room, '--out', 'room');
+  for (const scene of ['oval', 'ct-room']) run(work, 'scene', 'export', scene, '--out', `scene-${scene}`);
+  const pictures = ['small/camera.png', 'full/camera.png', 'room/back-left.png'];
+  run(work, 'classify', ...pictures, '--out', 'detections.json');
+  if (!givenStudy) {
+    const coarse = ['--stride', '14', '--spp', '1', '--poses', 'reference'];
+    const output = run(work, 'study', 'markers', ...coarse, '--json', '--out', 'study');
+    if (output !== null) checkText(schemas, 'standard output of study markers --json', output);
+  }
+  checkFolder(schemas, work, 'out');
+}
+
+/** Both schemas say the same of a material, but for words. */
+function checkMaterials(schemas) {
+  const plain = (node) => {
+    if (Array.isArray(node)) return node.map(plain);
+    if (node === null || typeof node !== 'object') return node;
+    const keys = Object.keys(node).filter((key) => key !== 'description' || typeof node[key] !== 'string');
+    return Object.fromEntries(keys.sort().map((key) => [key, plain(node[key])]));
+  };
+  const types = (name) => {
+    const of = schemas.get(name)?.schema.$defs.material.oneOf.filter((type) => type.properties.type) ?? [];
+    return of.map((type) => JSON.stringify(plain(type)));
+  };
+  const [library, scene] = [types('retrolux/materials-1'), types('retrolux/scene-1')];
+  for (const type of library.filter((t) => !scene.includes(t)))
+    violations.push(`materials-1 has a material that scene-1 has not: ${type}`);
+  for (const type of scene.filter((t) => !library.includes(t)))
+    violations.push(`scene-1 has a material that materials-1 has not: ${type}`);
+}
+
+const schemas = loadSchemas();
+checkMaterials(schemas);
+for (const file of ['scenes/data/markers.json', 'materials/data/library.json'])
+  checkText(schemas, file, withoutComments(fs.readFileSync(path.join(ROOT, file), 'utf8')));
+const work = fs.mkdtempSync(path.join(os.tmpdir(), 'retrolux_schemas.'));
+try {
+  checkOutputs(schemas, work);
+} finally {
+  fs.rmSync(work, { recursive: true, force: true });
+}
+if (givenStudy && (!fs.existsSync(givenStudy) || checkFolder(schemas, givenStudy, path.basename(givenStudy)) === 0))
+  violations.push(`${process.argv[3]}: no JSON file of a study`);
+for (const name of schemas.keys()) if (!checked.has(name)) violations.push(`${name}: no file of this schema was checked`);
+
+for (const violation of violations) console.log(violation);
+const documents = [...checked.values()].reduce((sum, count) => sum + count, 0);
+console.log(`schemas_test: ${documents} files of ${checked.size} schemas, ${violations.length} violations`);
+process.exit(violations.length > 0 ? 1 : 0);
