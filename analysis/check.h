@@ -1,6 +1,6 @@
-// Physical checks: a number that the program measures, the number that it must be, and where that comes from. The
-// tests call them, and so will `retrolux validate`. To add one: a function that returns its checks, in the file of its
-// subject, and a row in the table of check.cpp.
+// Physical checks: a number that the program measures, the number that it must be, and where that
+// comes from. The tests call them, and so will `retrolux validate`. To add one: a function that
+// returns its checks, in the file of its subject, and a row in the table of check.cpp.
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@ struct Check {
   std::string name;
   double measured = 0.0;
   double expected = 0.0;
-  double tolerance = 0.0;  // absolute, in `unit`; for random results several standard errors, said in `source`
+  double tolerance =
+      0.0;  // absolute, in `unit`; for random results several standard errors, said in `source`
   std::string unit;
-  std::string source;       // of the expected value: the closed form or the table
-  bool Pass() const;        // false for NaN
+  std::string source;  // of the expected value: the closed form or the table
+  bool Pass() const;   // false for NaN
 };
 
 struct CheckGroup {

@@ -12,14 +12,16 @@ namespace retrolux {
 
 namespace {
 
-// Mean radiance of a sphere of a white material in an environment of radiance 1, over its whole visible disc.
+// Mean radiance of a sphere of a white material in an environment of radiance 1, over its whole
+// visible disc.
 double FurnaceRadiance(const std::string& material_json, int samples) {
   Scene scene;
   scene.materials["white"] = ReadMaterial("white", JsonReader::FromText(material_json, "white"));
   scene.objects.push_back({"sphere", EllipsoidMesh(Vec3d::Constant(100.0), 5), {}, "white"});
   scene.ambient.environment_w_m2_sr = 1.0;
   CameraSpec camera;
-  camera.model = CameraModel::FromFieldOfView("camera", 64, 64, 7.0, 7.0, LookAt({1600, 0, 0}, Vec3d::Zero(), Vec3d::UnitZ()));
+  camera.model = CameraModel::FromFieldOfView("camera", 64, 64, 7.0, 7.0,
+                                              LookAt({1600, 0, 0}, Vec3d::Zero(), Vec3d::UnitZ()));
   scene.cameras.push_back(camera);
   const RayScene rays(scene);
   const Lights lights(scene, rays, RingChoice::kAll, "camera");
@@ -34,7 +36,8 @@ double FurnaceRadiance(const std::string& material_json, int samples) {
     // Through a disc that is the sphere's silhouette, a little smaller than its great circle.
     const Vec3f target(0.0f, 99.0f * disc.x(), 99.0f * disc.y());
     const Spectral nm = response.SampleWavelengths(sampler.Next1D());
-    sum += static_cast<double>(tracer.TracePath(origin, (target - origin).normalized(), nm, sampler).radiance.sum());
+    sum += static_cast<double>(
+        tracer.TracePath(origin, (target - origin).normalized(), nm, sampler).radiance.sum());
   }
   return sum / samples;
 }
@@ -43,23 +46,33 @@ double FurnaceRadiance(const std::string& material_json, int samples) {
 
 std::vector<Check> CheckWhiteFurnace() {
   constexpr int kSamples = 1 << 19;
-  const std::string source = "a surface that absorbs nothing shows the radiance of its surroundings; Russian roulette leaves "
-                             "a standard error of 0.03 %";
-  return {{"diffuse, reflectance 1", FurnaceRadiance(R"({"type": "diffuse", "reflectance": 1.0})", kSamples), 1.0, 1e-3, "", source},
+  const std::string source =
+      "a surface that absorbs nothing shows the radiance of its surroundings; Russian roulette "
+      "leaves "
+      "a standard error of 0.03 %";
+  return {{"diffuse, reflectance 1",
+           FurnaceRadiance(R"({"type": "diffuse", "reflectance": 1.0})", kSamples), 1.0, 1e-3, "",
+           source},
           {"rough coat over diffuse, reflectance 1",
-           FurnaceRadiance(R"({"type": "coated_diffuse", "reflectance": 1.0, "roughness": 0.15})", kSamples), 1.0, 1e-3, "", source},
+           FurnaceRadiance(R"({"type": "coated_diffuse", "reflectance": 1.0, "roughness": 0.15})",
+                           kSamples),
+           1.0, 1e-3, "", source},
           {"coat of roughness 0.5 over diffuse, reflectance 1",
-           FurnaceRadiance(R"({"type": "coated_diffuse", "reflectance": 1.0, "roughness": 0.5})", kSamples), 1.0, 1e-3, "", source}};
+           FurnaceRadiance(R"({"type": "coated_diffuse", "reflectance": 1.0, "roughness": 0.5})",
+                           kSamples),
+           1.0, 1e-3, "", source}};
 }
 
 std::vector<Check> CheckDiodeIrradiance() {
-  // A white diffuse patch has radiance E / pi. I(theta) = I0 cos^m theta with m = -ln 2 / ln cos(half angle), so that
-  // at 20 degrees off a 20 degree LED's axis the intensity is I0 / 2 by definition.
+  // A white diffuse patch has radiance E / pi. I(theta) = I0 cos^m theta with m = -ln 2 / ln
+  // cos(half angle), so that at 20 degrees off a 20 degree LED's axis the intensity is I0 / 2 by
+  // definition.
   MeasuringBench bench;
   std::vector<Check> checks;
   const auto add = [&](const std::string& name, double expected_w_m2) {
     const MeasuringBench::Radiance radiance = bench.Measure(1 << 12, 3);
-    checks.push_back({name, radiance.mean * kPi, expected_w_m2, 2e-3 * expected_w_m2, "W/m2", "E = I(theta) cos(beta) / d^2"});
+    checks.push_back({name, radiance.mean * kPi, expected_w_m2, 2e-3 * expected_w_m2, "W/m2",
+                      "E = I(theta) cos(beta) / d^2"});
   };
   bench.lamp_position = {1600, 0, 200};
   const double d2_m2 = 1.6 * 1.6 + 0.2 * 0.2;
@@ -76,12 +89,14 @@ std::vector<Check> CheckDiodeIrradiance() {
 }
 
 std::vector<Check> CheckExposure() {
-  // A flat frontal marker in front of a ring-lit camera at 1600 mm must sit at 70 % of 255 DN: the exposure is derived
-  // by quadrature over the LEDs and wavelengths, here the whole chain renders it.
+  // A flat frontal marker in front of a ring-lit camera at 1600 mm must sit at 70 % of 255 DN: the
+  // exposure is derived by quadrature over the LEDs and wavelengths, here the whole chain renders
+  // it.
   Scene scene;
   scene.name = "exposure";
   scene.UseMaterial("retro_bead");
-  scene.objects.push_back({"marker", RectangleMesh({0, -10, -10}, {0, 20, 0}, {0, 0, 20}), {}, "retro_bead"});
+  scene.objects.push_back(
+      {"marker", RectangleMesh({0, -10, -10}, {0, 20, 0}, {0, 0, 20}), {}, "retro_bead"});
   scene.cameras.push_back(OvalScene().cameras[0]);
   const CameraSpec& camera = scene.cameras[0];
   const double exposure_s = ExposureSeconds(scene, camera);
@@ -95,7 +110,8 @@ std::vector<Check> CheckExposure() {
   double electrons = 0.0;
   constexpr int kSide = 8;
   for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) electrons += static_cast<double>(tracer.EstimatePixel(316 + x, 236 + y).electrons.sum());
+    for (int x = 0; x < kSide; ++x)
+      electrons += static_cast<double>(tracer.EstimatePixel(316 + x, 236 + y).electrons.sum());
   }
   electrons = electrons / (kSide * kSide) + camera.sensor.dark_current_e_s * exposure_s;
   const double dn = camera.sensor.offset_dn + GainDnPerElectron(camera.sensor) * electrons;

@@ -8,7 +8,8 @@ namespace retrolux {
 
 namespace {
 
-// Half the diagonal of a pixel, and room for what bulges out between the sample points of the surface.
+// Half the diagonal of a pixel, and room for what bulges out between the sample points of the
+// surface.
 constexpr double kMargin_px = 0.75 + 0.5;
 
 // Distance of a point from a convex polygon (counter-clockwise in x, y); 0 inside.
@@ -25,7 +26,8 @@ double DistanceToHull(const Polygon& hull, const Vec2d& p) {
 }
 
 FloatPlane RenderBackground(const Scene& scene, const RayScene& rays, const Lights& lights,
-                            const CameraResponse& response, const TraceOptions& options, Progress& progress) {
+                            const CameraResponse& response, const TraceOptions& options,
+                            Progress& progress) {
   const std::vector<PlacedMarker> none;
   const PathTracer tracer(scene, rays, lights, response, none, options);
   return RenderFilm(tracer, response.Camera().model, lights.GroupNames(), progress).electrons;
@@ -33,7 +35,8 @@ FloatPlane RenderBackground(const Scene& scene, const RayScene& rays, const Ligh
 
 }  // namespace
 
-std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface, const CameraModel& camera) {
+std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface,
+                                               const CameraModel& camera) {
   Polygon points;
   for (const MarkerSurface::Point& point : surface.points) {
     if (const auto px = camera.Project(point.position)) points.push_back(*px);
@@ -48,8 +51,12 @@ std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface, con
     lo = lo.cwiseMin(corner);
     hi = hi.cwiseMax(corner);
   }
-  const auto first = [](double v) { return std::max(0, static_cast<int>(std::ceil(v - kMargin_px))); };
-  const auto last = [](double v, int size) { return std::min(size - 1, static_cast<int>(std::floor(v + kMargin_px))); };
+  const auto first = [](double v) {
+    return std::max(0, static_cast<int>(std::ceil(v - kMargin_px)));
+  };
+  const auto last = [](double v, int size) {
+    return std::min(size - 1, static_cast<int>(std::floor(v + kMargin_px)));
+  };
   std::vector<Eigen::Vector2i> pixels;
   for (int y = first(lo.y()); y <= last(hi.y(), camera.height); ++y) {
     for (int x = first(lo.x()); x <= last(hi.x(), camera.width); ++x) {
@@ -59,8 +66,8 @@ std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface, con
   return pixels;
 }
 
-ComposedCamera::ComposedCamera(const Scene& scene, const RayScene& rays, const CameraSpec& camera, RingChoice rings,
-                               const TraceOptions& options, Progress& progress)
+ComposedCamera::ComposedCamera(const Scene& scene, const RayScene& rays, const CameraSpec& camera,
+                               RingChoice rings, const TraceOptions& options, Progress& progress)
     : scene_(scene),
       rays_(rays),
       lights_(scene, rays, rings, camera.model.name),
@@ -68,7 +75,8 @@ ComposedCamera::ComposedCamera(const Scene& scene, const RayScene& rays, const C
       options_(options),
       background_(RenderBackground(scene, rays, lights_, response_, options, progress)) {}
 
-FloatPlane ComposedCamera::Signal(const PlacedMarker& marker, const MarkerSurface& surface, int64_t* retraced) const {
+FloatPlane ComposedCamera::Signal(const PlacedMarker& marker, const MarkerSurface& surface,
+                                  int64_t* retraced) const {
   const std::vector<PlacedMarker> markers = {marker};
   const PathTracer tracer(scene_, rays_, lights_, response_, markers, options_);
   FloatPlane signal = background_;

@@ -15,7 +15,9 @@ size_t IndexOf(const std::vector<int>& values, int value) {
   return static_cast<size_t>(found - values.begin());
 }
 
-int SamplesAlong(int cells, int stride) { return (cells - stride / 2 + stride - 1) / stride; }
+int SamplesAlong(int cells, int stride) {
+  return (cells - stride / 2 + stride - 1) / stride;
+}
 
 }  // namespace
 
@@ -24,17 +26,21 @@ StudyCoverage::StudyCoverage(const MarkerStudy& study)
       sample_rows_(SamplesAlong(kRows, study.options.stride)),
       sample_cols_(SamplesAlong(kColumns, study.options.stride)) {
   const auto samples = static_cast<size_t>(sample_rows_ * sample_cols_);
-  hits_.assign(study.options.markers.size(), std::vector(study.poses.size(), std::vector<Hits>(samples)));
+  hits_.assign(study.options.markers.size(),
+               std::vector(study.poses.size(), std::vector<Hits>(samples)));
   outcomes_.assign(study.options.markers.size(),
-                   std::vector(study.poses.size(), std::vector(study.cameras.size(), std::vector<Outcome>(samples))));
+                   std::vector(study.poses.size(),
+                               std::vector(study.cameras.size(), std::vector<Outcome>(samples))));
   for (const PictureResult& result : study.results) {
     const size_t m = IndexOf(study.options.markers, result.marker);
     const size_t sample = SampleIndex(result.position.row, result.position.col);
-    outcomes_[m][static_cast<size_t>(result.pose)][static_cast<size_t>(result.camera)][sample] = result.outcome;
+    outcomes_[m][static_cast<size_t>(result.pose)][static_cast<size_t>(result.camera)][sample] =
+        result.outcome;
     if (result.outcome != Outcome::kHit) continue;
     Hits& hits = hits_[m][static_cast<size_t>(result.pose)][sample];
     ++hits.all;
-    ++(study.cameras[static_cast<size_t>(result.camera)].starts_with("front") ? hits.front : hits.back);
+    ++(study.cameras[static_cast<size_t>(result.camera)].starts_with("front") ? hits.front
+                                                                              : hits.back);
   }
   const auto pose_index = [&](const std::string& name) {
     for (size_t p = 0; p < study.poses.size(); ++p) {
@@ -42,7 +48,8 @@ StudyCoverage::StudyCoverage(const MarkerStudy& study)
     }
     return -1;
   };
-  const int reference = pose_index("reference"), start = pose_index("start"), end = pose_index("end");
+  const int reference = pose_index("reference"), start = pose_index("start"),
+            end = pose_index("end");
   for (const int marker : study.options.markers) {
     for (int p = 0; p < static_cast<int>(study.poses.size()); ++p) {
       const std::string& pose = study.poses[static_cast<size_t>(p)].name;
@@ -74,16 +81,18 @@ size_t StudyCoverage::SampleIndex(int row, int col) const {
 }
 
 const StudyCoverage::Hits& StudyCoverage::At(int marker, int pose, int row, int col) const {
-  return hits_[IndexOf(study_.options.markers, marker)][static_cast<size_t>(pose)][SampleIndex(row, col)];
+  return hits_[IndexOf(study_.options.markers, marker)][static_cast<size_t>(pose)]
+              [SampleIndex(row, col)];
 }
 
 Outcome StudyCoverage::OutcomeAt(int marker, int pose, int camera, int row, int col) const {
-  return outcomes_[IndexOf(study_.options.markers, marker)][static_cast<size_t>(pose)][static_cast<size_t>(camera)]
-                  [SampleIndex(row, col)];
+  return outcomes_[IndexOf(study_.options.markers, marker)][static_cast<size_t>(pose)]
+                  [static_cast<size_t>(camera)][SampleIndex(row, col)];
 }
 
 template <typename Test>
-void StudyCoverage::AddSet(const std::string& name, int marker, const std::string& pose, Test test) {
+void StudyCoverage::AddSet(const std::string& name, int marker, const std::string& pose,
+                           Test test) {
   CellSet set{name, marker, pose, {}, 0.0, 0.0};
   for (int row = 0; row < kRows; ++row) {
     for (int col = 0; col < kColumns; ++col) {
@@ -96,7 +105,8 @@ void StudyCoverage::AddSet(const std::string& name, int marker, const std::strin
   sets_.push_back(std::move(set));
 }
 
-const CellSet* StudyCoverage::Set(const std::string& name, int marker, const std::string& pose) const {
+const CellSet* StudyCoverage::Set(const std::string& name, int marker,
+                                  const std::string& pose) const {
   for (const CellSet& set : sets_) {
     if (set.name == name && set.marker == marker && set.pose == pose) return &set;
   }
@@ -111,7 +121,8 @@ SymmetryCheck CheckSymmetry(const MarkerStudy& study) {
     } else if (name.ends_with("-right")) {
       name.replace(name.size() - 6, 6, "-left");
     }
-    return static_cast<int>(std::find(study.cameras.begin(), study.cameras.end(), name) - study.cameras.begin());
+    return static_cast<int>(std::find(study.cameras.begin(), study.cameras.end(), name) -
+                            study.cameras.begin());
   };
   SymmetryCheck check;
   for (const PictureResult& m : study.mirrored) {

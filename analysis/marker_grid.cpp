@@ -13,8 +13,9 @@ Vec3d Point(const GridPosition& position) {
   return {rho * std::cos(angle), position.mirrored ? -y : y, z};
 }
 
-// For a surface of revolution rho(z), dA = sqrt(rho^2 + (rho rho')^2) dz dphi, with rho rho' = -(R/L)^2 z; the
-// integrand is smooth up to the tips, so the midpoint rule in steps of 0.01 mm is exact to nine digits.
+// For a surface of revolution rho(z), dA = sqrt(rho^2 + (rho rho')^2) dz dphi, with rho rho' =
+// -(R/L)^2 z; the integrand is smooth up to the tips, so the midpoint rule in steps of 0.01 mm is
+// exact to nine digits.
 double CellArea_mm2(int row) {
   constexpr int kSteps = 1000;
   const double z0 = -kHalfLength_mm + 10.0 * row;

@@ -16,8 +16,9 @@ namespace retrolux {
 namespace fs = std::filesystem;
 
 const char* OutcomeName(Outcome outcome) {
-  constexpr const char* kNames[kOutcomes] = {"hit",       "outside_picture", "facing_away", "hidden",
-                                             "too_small", "not_detected",    "wrong_number"};
+  constexpr const char* kNames[kOutcomes] = {"hit",         "outside_picture", "facing_away",
+                                             "hidden",      "too_small",       "not_detected",
+                                             "wrong_number"};
   return kNames[static_cast<size_t>(outcome)];
 }
 
@@ -32,7 +33,8 @@ double Since(Clock::time_point& last) {
   return seconds;
 }
 
-// Light that went over another surface first is a few per cent of the signal here: half the paths for it do.
+// Light that went over another surface first is a few per cent of the signal here: half the paths
+// for it do.
 constexpr float kRoulette = 0.5f;
 
 // A pattern belongs to the marker if its centroid lies this close to the marker's outline, px.
@@ -45,9 +47,12 @@ const Detection* DetectionAt(const std::vector<Detection>& detections, const Pol
   const Detection* nearest = nullptr;
   for (const Detection& detection : detections) {
     const Vec2d inwards = (centre - detection.centroid_px).normalized() * kMatchMargin_px;
-    const bool near = Contains(hull, detection.centroid_px) || Contains(hull, detection.centroid_px + inwards);
+    const bool near =
+        Contains(hull, detection.centroid_px) || Contains(hull, detection.centroid_px + inwards);
     if (!near) continue;
-    if (!nearest || (detection.centroid_px - centre).norm() < (nearest->centroid_px - centre).norm()) nearest = &detection;
+    if (!nearest ||
+        (detection.centroid_px - centre).norm() < (nearest->centroid_px - centre).norm())
+      nearest = &detection;
   }
   return nearest;
 }
@@ -60,24 +65,28 @@ std::optional<Outcome> OutcomeByGeometry(const MarkerView& view) {
   return Outcome::kHidden;
 }
 
-Outcome OutcomeOfPicture(int marker, const MarkerView& view, const Detection* found, double min_area_px) {
+Outcome OutcomeOfPicture(int marker, const MarkerView& view, const Detection* found,
+                         double min_area_px) {
   if (found && found->marker == marker) return Outcome::kHit;
   if (!view.in_frame) return Outcome::kOutsidePicture;
   if (view.visible_fraction < 0.5) return Outcome::kHidden;
-  if (!found && std::abs(SignedArea(view.outline_px)) * view.visible_fraction < min_area_px) return Outcome::kTooSmall;
+  if (!found && std::abs(SignedArea(view.outline_px)) * view.visible_fraction < min_area_px)
+    return Outcome::kTooSmall;
   return found ? Outcome::kWrongNumber : Outcome::kNotDetected;
 }
 
 std::string PictureName(const MarkerStudy& study, const PictureResult& result) {
-  return fmt::format("marker{}_{}_{}_r{:02}_c{:02}{}", result.marker, study.poses[static_cast<size_t>(result.pose)].name,
-                     study.cameras[static_cast<size_t>(result.camera)], result.position.row, result.position.col,
-                     result.position.mirrored ? "m" : "");
+  return fmt::format("marker{}_{}_{}_r{:02}_c{:02}{}", result.marker,
+                     study.poses[static_cast<size_t>(result.pose)].name,
+                     study.cameras[static_cast<size_t>(result.camera)], result.position.row,
+                     result.position.col, result.position.mirrored ? "m" : "");
 }
 
 // One pose: the room with the patient in place, and its six backgrounds.
 class PoseStudy {
  public:
-  PoseStudy(const Scene& scene, MarkerStudy& study, int pose, const fs::path& folder, Progress& progress)
+  PoseStudy(const Scene& scene, MarkerStudy& study, int pose, const fs::path& folder,
+            Progress& progress)
       : study_(study),
         pose_(pose),
         folder_(folder),
@@ -88,9 +97,11 @@ class PoseStudy {
     trace.samples_per_pixel = study.options.samples_per_pixel;
     trace.direct = TraceOptions::Direct::kOneOfAll;
     trace.roulette = kRoulette;
-    trace.seed = CombineKeys(study.options.seed, HashBytes(study.poses[static_cast<size_t>(pose)].name));
+    trace.seed =
+        CombineKeys(study.options.seed, HashBytes(study.poses[static_cast<size_t>(pose)].name));
     for (const CameraSpec& camera : scene_.cameras) {
-      cameras_.push_back(std::make_unique<ComposedCamera>(scene_, rays_, camera, RingChoice::kAll, trace, progress_));
+      cameras_.push_back(std::make_unique<ComposedCamera>(scene_, rays_, camera, RingChoice::kAll,
+                                                          trace, progress_));
     }
   }
 
@@ -104,7 +115,8 @@ class PoseStudy {
     const MarkerSurface surface = SampleMarkerSurface(rays_, placed);
     std::vector<PictureResult> results;
     for (size_t c = 0; c < cameras_.size(); ++c) {
-      PictureResult result{marker, pose_, static_cast<int>(c), position, surface.centre, 0.0, 0.0, Outcome::kHidden, {}};
+      PictureResult result{marker, pose_, static_cast<int>(c), position, surface.centre,
+                           0.0,    0.0,   Outcome::kHidden,    {}};
       const MarkerView view = ViewMarker(surface, rays_, cameras_[c]->Camera().model);
       result.incidence_deg = view.incidence_deg;
       result.visible_fraction = view.visible_fraction;
@@ -118,7 +130,8 @@ class PoseStudy {
         times.trace += Since(clock);
         const DigitalImage picture = Expose(*cameras_[c], signal, result);
         times.sensor += Since(clock);
-        const std::vector<Detection> found = IdentifyByEdges(picture, DefaultMarkerSet(), study_.options.edges);
+        const std::vector<Detection> found =
+            IdentifyByEdges(picture, DefaultMarkerSet(), study_.options.edges);
         const Detection* here = DetectionAt(found, view.outline_px);
         if (here) result.detected = here->marker;
         result.outcome = OutcomeOfPicture(marker, view, here, study_.options.edges.min_area_px);
@@ -151,24 +164,30 @@ class PoseStudy {
         if (r.outcome == Outcome::kHit && closer(r, last_hit, 90.0)) last_hit = &r;
         if (r.outcome != Outcome::kHit && closer(r, first_miss, 0.0)) first_miss = &r;
       }
-      const std::pair<const PictureResult*, const char*> chosen[] = {
-          {frontal, "frontal"}, {oblique, "oblique"}, {last_hit, "last hit"}, {first_miss, "first miss"}};
+      const std::pair<const PictureResult*, const char*> chosen[] = {{frontal, "frontal"},
+                                                                     {oblique, "oblique"},
+                                                                     {last_hit, "last hit"},
+                                                                     {first_miss, "first miss"}};
       for (const auto& [result, kind] : chosen) {
         if (!result) continue;
-        const PlacedMarker placed = PlaceMarker(scene_, {"marker", result->marker, "mask", marker_grid::Point(result->position)}, 1);
-        const FloatPlane signal = cameras_[static_cast<size_t>(c)]->Signal(placed, SampleMarkerSurface(rays_, placed));
+        const PlacedMarker placed = PlaceMarker(
+            scene_, {"marker", result->marker, "mask", marker_grid::Point(result->position)}, 1);
+        const FloatPlane signal =
+            cameras_[static_cast<size_t>(c)]->Signal(placed, SampleMarkerSurface(rays_, placed));
         KeepPicture(Expose(*cameras_[static_cast<size_t>(c)], signal, *result), *result, kind);
       }
     }
   }
 
  private:
-  DigitalImage Expose(const ComposedCamera& camera, const FloatPlane& signal, const PictureResult& result) const {
+  DigitalImage Expose(const ComposedCamera& camera, const FloatPlane& signal,
+                      const PictureResult& result) const {
     return ExposeSensor(signal, camera.Camera().sensor, camera.ExposureSeconds(),
                         NoiseKey(study_.options.noise_seed, PictureName(study_, result)));
   }
 
-  void KeepPicture(const DigitalImage& picture, const PictureResult& result, const std::string& kind) {
+  void KeepPicture(const DigitalImage& picture, const PictureResult& result,
+                   const std::string& kind) {
     const std::string file = fmt::format("pictures/{}.png", PictureName(study_, result));
     WritePng(folder_ / file, picture);
     const std::lock_guard lock(mutex_);
@@ -202,13 +221,17 @@ void CheckStudyScene(const Scene& scene) {
   for (const CameraSpec& camera : scene.cameras) names.push_back(camera.model.name);
   for (const std::string& name : names) {
     if (!name.starts_with("front") && !name.starts_with("back")) {
-      throw InputError(fmt::format("scene '{}': camera '{}'; expected names that begin with 'front' or 'back'", scene.name, name));
+      throw InputError(
+          fmt::format("scene '{}': camera '{}'; expected names that begin with 'front' or 'back'",
+                      scene.name, name));
     }
     std::string mirrored = name;
     if (name.ends_with("-left")) mirrored.replace(name.size() - 5, 5, "-right");
     if (name.ends_with("-right")) mirrored.replace(name.size() - 6, 6, "-left");
     if (std::find(names.begin(), names.end(), mirrored) == names.end()) {
-      throw InputError(fmt::format("scene '{}': camera '{}' without '{}'; expected cameras in mirrored pairs", scene.name, name, mirrored));
+      throw InputError(
+          fmt::format("scene '{}': camera '{}' without '{}'; expected cameras in mirrored pairs",
+                      scene.name, name, mirrored));
     }
   }
 }
@@ -216,7 +239,8 @@ void CheckStudyScene(const Scene& scene) {
 std::vector<GridPosition> Positions(int stride) {
   std::vector<GridPosition> positions;
   for (int row = stride / 2; row < marker_grid::kRows; row += stride) {
-    for (int col = stride / 2; col < marker_grid::kColumns; col += stride) positions.push_back({row, col});
+    for (int col = stride / 2; col < marker_grid::kColumns; col += stride)
+      positions.push_back({row, col});
   }
   return positions;
 }
@@ -236,7 +260,8 @@ template <typename T>
 void CheckNoneTwice(const char* option, std::vector<T> values) {
   std::sort(values.begin(), values.end());
   const auto twice = std::adjacent_find(values.begin(), values.end());
-  if (twice != values.end()) throw InputError(fmt::format("{}: {} twice; expected each once", option, *twice));
+  if (twice != values.end())
+    throw InputError(fmt::format("{}: {} twice; expected each once", option, *twice));
 }
 
 }  // namespace
@@ -255,8 +280,8 @@ std::vector<Pose> ScanPoses(const Scene& scene, double step_mm) {
   return poses;
 }
 
-MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options, const fs::path& folder,
-                           Progress& progress) {
+MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options,
+                           const fs::path& folder, Progress& progress) {
   CheckStudyScene(scene);
   options.edges.Check();
   for (const int marker : options.markers) DefaultMarkerSet().ByNumber(marker);
@@ -275,7 +300,8 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
   const std::vector<GridPosition> mirrored = Mirrored(positions, options.mirrored_checks);
   positions.insert(positions.end(), mirrored.begin(), mirrored.end());
   int64_t background_pixels = 0;
-  for (const CameraSpec& camera : scene.cameras) background_pixels += camera.model.width * camera.model.height;
+  for (const CameraSpec& camera : scene.cameras)
+    background_pixels += camera.model.width * camera.model.height;
   for (int pose = 0; pose < static_cast<int>(study.poses.size()); ++pose) {
     const std::string& name = study.poses[static_cast<size_t>(pose)].name;
     Clock::time_point clock = Clock::now();
@@ -286,10 +312,12 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
 
     const auto tasks = static_cast<int64_t>(positions.size() * options.markers.size());
     std::vector<std::vector<PictureResult>> results(static_cast<size_t>(tasks));
-    progress.Begin("pictures, " + name, tasks * static_cast<int64_t>(scene.cameras.size()), "pictures");
+    progress.Begin("pictures, " + name, tasks * static_cast<int64_t>(scene.cameras.size()),
+                   "pictures");
     ParallelFor(tasks, [&](int64_t task) {
       const auto t = static_cast<size_t>(task);
-      results[t] = pose_study.Position(options.markers[t / positions.size()], positions[t % positions.size()]);
+      results[t] = pose_study.Position(options.markers[t / positions.size()],
+                                       positions[t % positions.size()]);
       progress.Advance(static_cast<int64_t>(scene.cameras.size()));
     });
     std::vector<PictureResult> of_pose;

@@ -1,5 +1,5 @@
-// The marker study of the thesis (chapter 3): at which positions on the oval is a marker identified, by which of the
-// room's cameras, in which pose of the patient.
+// The marker study of the thesis (chapter 3): at which positions on the oval is a marker
+// identified, by which of the room's cameras, in which pose of the patient.
 #pragma once
 
 #include <functional>
@@ -65,8 +65,8 @@ struct MarkerStudy {
   std::vector<PictureResult> results;   // of the half y >= 0
   std::vector<PictureResult> mirrored;  // of the mirrored positions that were checked
   std::vector<KeptPicture> kept;
-  // What took how long, s: wall time of the backgrounds and of the pictures, and the time of all threads in the
-  // parts of a picture.
+  // What took how long, s: wall time of the backgrounds and of the pictures, and the time of all
+  // threads in the parts of a picture.
   struct Times {
     double background = 0.0, pictures = 0.0;
     double geometry = 0.0, trace = 0.0, sensor = 0.0, identify = 0.0, write = 0.0;
@@ -79,9 +79,9 @@ struct MarkerStudy {
 // Poses at every `step_mm` from the first to the last pose along z, for `--poses scan`.
 std::vector<Pose> ScanPoses(const Scene& scene, double step_mm);
 
-// Kept pictures go to folder/pictures. The scene must have an object "mask" and cameras whose names begin with
-// "front" or "back" and come in -left and -right pairs; InputError if not.
-MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options, const std::filesystem::path& folder,
-                           Progress& progress);
+// Kept pictures go to folder/pictures. The scene must have an object "mask" and cameras whose names
+// begin with "front" or "back" and come in -left and -right pairs; InputError if not.
+MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options,
+                           const std::filesystem::path& folder, Progress& progress);
 
 }  // namespace retrolux

@@ -12,28 +12,32 @@ std::string Detected(const PictureResult& result) {
 }
 
 void WriteHits(const MarkerStudy& study, const std::filesystem::path& file) {
-  CsvWriter csv({"marker", "pose", "camera", "row", "col", "x_mm", "y_mm", "z_mm", "incidence_deg", "visible_fraction",
-                 "hit", "detected", "reason"});
+  CsvWriter csv({"marker", "pose", "camera", "row", "col", "x_mm", "y_mm", "z_mm", "incidence_deg",
+                 "visible_fraction", "hit", "detected", "reason"});
   for (const PictureResult& r : study.results) {
     const bool hit = r.outcome == Outcome::kHit;
     csv.Row({std::to_string(r.marker), study.poses[static_cast<size_t>(r.pose)].name,
-             study.cameras[static_cast<size_t>(r.camera)], std::to_string(r.position.row), std::to_string(r.position.col),
-             fmt::format("{:.3f}", r.position_in_world.x()), fmt::format("{:.3f}", r.position_in_world.y()),
+             study.cameras[static_cast<size_t>(r.camera)], std::to_string(r.position.row),
+             std::to_string(r.position.col), fmt::format("{:.3f}", r.position_in_world.x()),
+             fmt::format("{:.3f}", r.position_in_world.y()),
              fmt::format("{:.3f}", r.position_in_world.z()), fmt::format("{:.3f}", r.incidence_deg),
-             fmt::format("{:.4f}", r.visible_fraction), hit ? "1" : "0", Detected(r), hit ? "" : OutcomeName(r.outcome)});
+             fmt::format("{:.4f}", r.visible_fraction), hit ? "1" : "0", Detected(r),
+             hit ? "" : OutcomeName(r.outcome)});
   }
   csv.Write(file);
 }
 
-void WriteCoverage(const MarkerStudy& study, const StudyCoverage& coverage, const std::filesystem::path& file) {
+void WriteCoverage(const MarkerStudy& study, const StudyCoverage& coverage,
+                   const std::filesystem::path& file) {
   CsvWriter csv({"marker", "pose", "row", "col", "cameras_hit", "satisfies"});
   for (const int marker : study.options.markers) {
     for (int p = 0; p < static_cast<int>(study.poses.size()); ++p) {
       for (const PictureResult& r : study.results) {
         if (r.marker != marker || r.pose != p || r.camera != 0) continue;
         const int hits = coverage.CamerasHit(marker, p, r.position.row, r.position.col);
-        csv.Row({std::to_string(marker), study.poses[static_cast<size_t>(p)].name, std::to_string(r.position.row),
-                 std::to_string(r.position.col), std::to_string(hits), hits >= 2 ? "1" : "0"});
+        csv.Row({std::to_string(marker), study.poses[static_cast<size_t>(p)].name,
+                 std::to_string(r.position.row), std::to_string(r.position.col),
+                 std::to_string(hits), hits >= 2 ? "1" : "0"});
       }
     }
   }
@@ -70,8 +74,9 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
   nlohmann::json reasons = nlohmann::json::object();
   for (int i = 0; i < kOutcomes; ++i) {
     const auto outcome = static_cast<Outcome>(i);
-    reasons[OutcomeName(outcome)] = std::count_if(study.results.begin(), study.results.end(),
-                                                  [&](const PictureResult& r) { return r.outcome == outcome; });
+    reasons[OutcomeName(outcome)] =
+        std::count_if(study.results.begin(), study.results.end(),
+                      [&](const PictureResult& r) { return r.outcome == outcome; });
   }
   nlohmann::json kept = nlohmann::json::array();
   for (const KeptPicture& picture : study.kept) {
@@ -90,7 +95,8 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
           {"units", "mm, deg"},
           {"pixel_origin", "center"},
           {"face_half_mm2", marker_grid::FaceHalfArea_mm2()},
-          {"positions", study.results.size() / (study.cameras.size() * study.poses.size() * study.options.markers.size())},
+          {"positions", study.results.size() / (study.cameras.size() * study.poses.size() *
+                                                study.options.markers.size())},
           {"pictures", study.results.size()},
           {"pictures_rendered", study.composed},
           {"stride", study.options.stride},
@@ -105,7 +111,8 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
           {"symmetry", {{"pictures", symmetry.pictures}, {"agree", symmetry.agree}}}};
 }
 
-void WriteStudyFiles(const MarkerStudy& study, const StudyCoverage& coverage, const std::filesystem::path& folder) {
+void WriteStudyFiles(const MarkerStudy& study, const StudyCoverage& coverage,
+                     const std::filesystem::path& folder) {
   WriteHits(study, folder / "hits.csv");
   WriteCoverage(study, coverage, folder / "coverage.csv");
   WriteTextFile(folder / "summary.json", StudySummary(study, coverage).dump(2) + "\n");

@@ -26,15 +26,20 @@ std::string Grouped(double value) {
   return grouped;
 }
 
-std::string AreaNote(const CellSet& set) { return fmt::format("{:.1f} %, {} mm²", set.percent, Grouped(set.area_mm2)); }
+std::string AreaNote(const CellSet& set) {
+  return fmt::format("{:.1f} %, {} mm²", set.percent, Grouped(set.area_mm2));
+}
 
 class StudyReport {
  public:
   StudyReport(const MarkerStudy& study, const StudyCoverage& coverage, std::filesystem::path folder)
-      : study_(study), coverage_(coverage), folder_(std::move(folder)),
-        report_("Where markers can be placed on the mask",
-                fmt::format("CT room, {} cameras, markers {}, method edges; retrolux " RETROLUX_VERSION,
-                            study.cameras.size(), fmt::join(study.options.markers, " and "))) {}
+      : study_(study),
+        coverage_(coverage),
+        folder_(std::move(folder)),
+        report_(
+            "Where markers can be placed on the mask",
+            fmt::format("CT room, {} cameras, markers {}, method edges; retrolux " RETROLUX_VERSION,
+                        study.cameras.size(), fmt::join(study.options.markers, " and "))) {}
 
   Report Compose(const std::string& command) {
     Summary();
@@ -59,8 +64,9 @@ class StudyReport {
       for (const Pose& pose : study_.poses) {
         if (study_.poses.size() > 3 && pose.translation.z() != 0.0) continue;
         const CellSet& set = *coverage_.Set("satisfies", marker, pose.name);
-        figures.push_back({fmt::format("marker {}, {}", marker, pose.name), fmt::format("{:.1f}", set.percent), "%",
-                           fmt::format("{} mm² seen by two cameras or more", Grouped(set.area_mm2))});
+        figures.push_back(
+            {fmt::format("marker {}, {}", marker, pose.name), fmt::format("{:.1f}", set.percent),
+             "%", fmt::format("{} mm² seen by two cameras or more", Grouped(set.area_mm2))});
       }
     }
     report_.KeyFigures(figures);
@@ -68,18 +74,22 @@ class StudyReport {
       const CellSet* expanded = coverage_.Set("expanded", marker, "");
       const CellSet* all = coverage_.Set("all", marker, "");
       if (!expanded) continue;
-      report_.Paragraph(fmt::format(
-          "Marker {}: **{:.1f} %** of the face half ({} mm²) is usable by front and back cameras in every pose, "
-          "**{:.1f} %** ({} mm²) if the front cameras watch the first part of the scan and the back cameras the rest.",
-          marker, all->percent, Grouped(all->area_mm2), expanded->percent, Grouped(expanded->area_mm2)));
+      report_.Paragraph(
+          fmt::format("Marker {}: **{:.1f} %** of the face half ({} mm²) is usable by front and "
+                      "back cameras in every pose, "
+                      "**{:.1f} %** ({} mm²) if the front cameras watch the first part of the scan "
+                      "and the back cameras the rest.",
+                      marker, all->percent, Grouped(all->area_mm2), expanded->percent,
+                      Grouped(expanded->area_mm2)));
     }
-    const auto wrong = std::count_if(study_.results.begin(), study_.results.end(), [](const PictureResult& r) {
-      return r.detected && *r.detected != r.marker;
-    });
-    report_.Paragraph(fmt::format(
-        "{} pictures, {} of them rendered; in the others no ray sees the marker. The marker was given another's number "
-        "in **{}** of them.",
-        study_.results.size(), study_.composed, wrong));
+    const auto wrong =
+        std::count_if(study_.results.begin(), study_.results.end(),
+                      [](const PictureResult& r) { return r.detected && *r.detected != r.marker; });
+    report_.Paragraph(
+        fmt::format("{} pictures, {} of them rendered; in the others no ray sees the marker. The "
+                    "marker was given another's number "
+                    "in **{}** of them.",
+                    study_.results.size(), study_.composed, wrong));
   }
 
   OvalMap MapOf(const CellSet& set, const std::string& label) const {
@@ -88,13 +98,16 @@ class StudyReport {
 
   void SetMaps() {
     report_.Heading("Usable positions (thesis figures 3.10 to 3.12)");
-    report_.Paragraph("A position is usable if at least two cameras identify the marker there. Black: usable. The half "
-                      "y < 0 is the mirror image, left and right cameras swapped.");
+    report_.Paragraph(
+        "A position is usable if at least two cameras identify the marker there. Black: usable. "
+        "The half "
+        "y < 0 is the mirror image, left and right cameras swapped.");
     for (const char* name : {"satisfies", "front", "back", "both"}) {
       std::vector<OvalMap> maps;
       for (const int marker : study_.options.markers) {
         for (const Pose& pose : study_.poses) {
-          maps.push_back(MapOf(*coverage_.Set(name, marker, pose.name), fmt::format("marker {}, {}", marker, pose.name)));
+          maps.push_back(MapOf(*coverage_.Set(name, marker, pose.name),
+                               fmt::format("marker {}, {}", marker, pose.name)));
         }
       }
       report_.OvalMaps(Caption(name), HitMissCategories(), maps);
@@ -102,16 +115,20 @@ class StudyReport {
     std::vector<OvalMap> maps;
     for (const int marker : study_.options.markers) {
       for (const char* name : {"all", "expanded"}) {
-        if (const CellSet* set = coverage_.Set(name, marker, "")) maps.push_back(MapOf(*set, fmt::format("marker {}, {}", marker, name)));
+        if (const CellSet* set = coverage_.Set(name, marker, ""))
+          maps.push_back(MapOf(*set, fmt::format("marker {}, {}", marker, name)));
       }
     }
-    report_.OvalMaps("All: both pairs in every pose (figure 3.11). Expanded: front cameras in reference and start, back "
-                     "cameras in reference and end (figure 3.12).",
-                     HitMissCategories(), maps);
+    report_.OvalMaps(
+        "All: both pairs in every pose (figure 3.11). Expanded: front cameras in reference and "
+        "start, back "
+        "cameras in reference and end (figure 3.12).",
+        HitMissCategories(), maps);
   }
 
   static std::string Caption(const std::string& name) {
-    if (name == "satisfies") return "Identified by at least two of the six cameras (figure 3.10, left and right together)";
+    if (name == "satisfies")
+      return "Identified by at least two of the six cameras (figure 3.10, left and right together)";
     if (name == "front") return "By at least two front cameras (figure 3.10, left)";
     if (name == "back") return "By at least two back cameras (figure 3.10, right)";
     return "By two front and by two back cameras";
@@ -134,11 +151,16 @@ class StudyReport {
     std::vector<OvalMap> maps;
     for (const int marker : study_.options.markers) {
       for (int p = 0; p < static_cast<int>(study_.poses.size()); ++p) {
-        const auto count = [&, marker, p](int r, int c) { return coverage_.CamerasHit(marker, p, r, c); };
-        maps.push_back(HalfMaps(fmt::format("marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name), count, count));
+        const auto count = [&, marker, p](int r, int c) {
+          return coverage_.CamerasHit(marker, p, r, c);
+        };
+        maps.push_back(HalfMaps(
+            fmt::format("marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name), count,
+            count));
       }
     }
-    report_.OvalMaps("Number of cameras that identify the marker", CountCategories(static_cast<int>(study_.cameras.size())), maps);
+    report_.OvalMaps("Number of cameras that identify the marker",
+                     CountCategories(static_cast<int>(study_.cameras.size())), maps);
   }
 
   int MirroredCamera(int camera) const {
@@ -149,7 +171,8 @@ class StudyReport {
       return true;
     };
     if (!swap_end("-left", "-right")) swap_end("-right", "-left");
-    return static_cast<int>(std::find(study_.cameras.begin(), study_.cameras.end(), name) - study_.cameras.begin());
+    return static_cast<int>(std::find(study_.cameras.begin(), study_.cameras.end(), name) -
+                            study_.cameras.begin());
   }
 
   void CameraMaps() {
@@ -161,11 +184,16 @@ class StudyReport {
         std::vector<OvalMap> maps;
         for (int c = 0; c < static_cast<int>(study_.cameras.size()); ++c) {
           const auto at = [&, marker, p](int camera) {
-            return [&, marker, p, camera](int r, int col) { return static_cast<int>(coverage_.OutcomeAt(marker, p, camera, r, col)); };
+            return [&, marker, p, camera](int r, int col) {
+              return static_cast<int>(coverage_.OutcomeAt(marker, p, camera, r, col));
+            };
           };
-          maps.push_back(HalfMaps(study_.cameras[static_cast<size_t>(c)], at(c), at(MirroredCamera(c))));
+          maps.push_back(
+              HalfMaps(study_.cameras[static_cast<size_t>(c)], at(c), at(MirroredCamera(c))));
         }
-        report_.OvalMaps(fmt::format("Marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name), NamedCategories(names), maps);
+        report_.OvalMaps(
+            fmt::format("Marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name),
+            NamedCategories(names), maps);
       }
     }
   }
@@ -180,14 +208,21 @@ class StudyReport {
           x.push_back(pose.translation.z());
           y.push_back(coverage_.Set(name, marker, pose.name)->percent);
         }
-        traces.push_back({{"type", "scatter"}, {"mode", "lines+markers"}, {"name", fmt::format("marker {}, {}", marker, name)},
-                          {"x", x}, {"y", y}});
+        traces.push_back({{"type", "scatter"},
+                          {"mode", "lines+markers"},
+                          {"name", fmt::format("marker {}, {}", marker, name)},
+                          {"x", x},
+                          {"y", y}});
       }
     }
-    report_.Plot("Usable area of the face half over the position of the patient. Satisfies: at least two of six cameras; front, "
-                 "back: at least two of three; both: front and back.",
-                 traces, {{"xaxis", {{"title", {{"text", "centre of the oval along z / mm"}}}}},
-                          {"yaxis", {{"title", {{"text", "usable area / % of the face half"}}}, {"rangemode", "tozero"}}}});
+    report_.Plot(
+        "Usable area of the face half over the position of the patient. Satisfies: at least two of "
+        "six cameras; front, "
+        "back: at least two of three; both: front and back.",
+        traces,
+        {{"xaxis", {{"title", {{"text", "centre of the oval along z / mm"}}}}},
+         {"yaxis",
+          {{"title", {{"text", "usable area / % of the face half"}}}, {"rangemode", "tozero"}}}});
   }
 
   void Limits() {
@@ -199,7 +234,9 @@ class StudyReport {
       std::vector<int> hits(18, 0), all(18, 0);
       double last = 0.0;
       for (const PictureResult& r : study_.results) {
-        if (r.camera != static_cast<int>(c) || r.visible_fraction < 0.999 || r.incidence_deg >= 90.0) continue;
+        if (r.camera != static_cast<int>(c) || r.visible_fraction < 0.999 ||
+            r.incidence_deg >= 90.0)
+          continue;
         const auto bin = static_cast<size_t>(r.incidence_deg / kBin);
         ++all[bin];
         if (r.outcome != Outcome::kHit) continue;
@@ -215,14 +252,23 @@ class StudyReport {
         x.push_back((static_cast<double>(bin) + 0.5) * kBin);
         y.push_back(100.0 * hits[bin] / all[bin]);
       }
-      traces.push_back({{"type", "scatter"}, {"mode", "lines+markers"}, {"name", study_.cameras[c]}, {"x", x}, {"y", y}});
-      rows.push_back({study_.cameras[c], std::to_string(total), std::to_string(total_hits), fmt::format("{:.1f}", last)});
+      traces.push_back({{"type", "scatter"},
+                        {"mode", "lines+markers"},
+                        {"name", study_.cameras[c]},
+                        {"x", x},
+                        {"y", y}});
+      rows.push_back({study_.cameras[c], std::to_string(total), std::to_string(total_hits),
+                      fmt::format("{:.1f}", last)});
     }
-    report_.Plot("Share of wholly visible markers that are identified, over the angle between the marker's normal and the line "
-                 "of sight, in bins of 5 degrees",
-                 traces, {{"xaxis", {{"title", {{"text", "incidence angle / degrees"}}}, {"range", {0, 90}}}},
-                          {"yaxis", {{"title", {{"text", "identified / %"}}}, {"range", {0, 105}}}}});
-    report_.Table("Wholly visible markers, all markers and poses together", {"camera", "visible", "identified", "last hit / deg"}, rows);
+    report_.Plot(
+        "Share of wholly visible markers that are identified, over the angle between the marker's "
+        "normal and the line "
+        "of sight, in bins of 5 degrees",
+        traces,
+        {{"xaxis", {{"title", {{"text", "incidence angle / degrees"}}}, {"range", {0, 90}}}},
+         {"yaxis", {{"title", {{"text", "identified / %"}}}, {"range", {0, 105}}}}});
+    report_.Table("Wholly visible markers, all markers and poses together",
+                  {"camera", "visible", "identified", "last hit / deg"}, rows);
     ReasonBars();
   }
 
@@ -231,11 +277,15 @@ class StudyReport {
     for (int i = 0; i < kOutcomes; ++i) {
       json y = json::array();
       for (size_t c = 0; c < study_.cameras.size(); ++c) {
-        y.push_back(std::count_if(study_.results.begin(), study_.results.end(), [&](const PictureResult& r) {
-          return r.camera == static_cast<int>(c) && r.outcome == static_cast<Outcome>(i);
-        }));
+        y.push_back(std::count_if(
+            study_.results.begin(), study_.results.end(), [&](const PictureResult& r) {
+              return r.camera == static_cast<int>(c) && r.outcome == static_cast<Outcome>(i);
+            }));
       }
-      traces.push_back({{"type", "bar"}, {"name", OutcomeName(static_cast<Outcome>(i))}, {"x", study_.cameras}, {"y", y}});
+      traces.push_back({{"type", "bar"},
+                        {"name", OutcomeName(static_cast<Outcome>(i))},
+                        {"x", study_.cameras},
+                        {"y", y}});
     }
     report_.Plot("Outcomes by camera, all markers and poses", traces,
                  {{"barmode", "stack"}, {"yaxis", {{"title", {{"text", "pictures"}}}}}});
@@ -246,14 +296,17 @@ class StudyReport {
     for (const KeptPicture& kept : study_.kept) {
       if (kept.kind.empty() || kept.result.pose != 0) continue;
       const PictureResult& r = kept.result;
-      pictures.push_back({fmt::format("{}, {}: marker {}, {:.0f}°, {}", study_.cameras[static_cast<size_t>(r.camera)], kept.kind,
+      pictures.push_back({fmt::format("{}, {}: marker {}, {:.0f}°, {}",
+                                      study_.cameras[static_cast<size_t>(r.camera)], kept.kind,
                                       r.marker, r.incidence_deg, OutcomeName(r.outcome)),
                           PictureBytes(kept.file)});
     }
     if (pictures.empty()) return;
     report_.Heading("What the cameras record");
-    report_.PictureGrid(fmt::format("Pictures of the study, pose {}, as the sensor gives them; dark levels raised (gamma 2.2) to show the "
-                                    "mask", study_.poses.front().name),
+    report_.PictureGrid(fmt::format("Pictures of the study, pose {}, as the sensor gives them; "
+                                    "dark levels raised (gamma 2.2) to show the "
+                                    "mask",
+                                    study_.poses.front().name),
                         pictures, 4);
   }
 
@@ -262,7 +315,8 @@ class StudyReport {
     std::vector<uint8_t> rgb;
     const double full_scale = (1 << image.bits) - 1;
     for (const uint16_t dn : image.dn.data) {
-      const auto level = static_cast<uint8_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
+      const auto level =
+          static_cast<uint8_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
       rgb.insert(rgb.end(), {level, level, level});
     }
     return EncodeRgbPng(image.dn.width, image.dn.height, rgb);
@@ -272,10 +326,12 @@ class StudyReport {
     const SymmetryCheck symmetry = CheckSymmetry(study_);
     if (symmetry.pictures == 0) return;
     report_.Heading("Is the other half the mirror image?");
-    report_.Paragraph(fmt::format(
-        "{} pictures of positions on the half y < 0 were rendered and compared with their mirror images: **{} agree** in hit or "
-        "miss. The marker itself is not mirrored, so that near the last hits single pictures may differ.",
-        symmetry.pictures, symmetry.agree));
+    report_.Paragraph(
+        fmt::format("{} pictures of positions on the half y < 0 were rendered and compared with "
+                    "their mirror images: **{} agree** in hit or "
+                    "miss. The marker itself is not mirrored, so that near the last hits single "
+                    "pictures may differ.",
+                    symmetry.pictures, symmetry.agree));
   }
 
   void HowMade(const std::string& command) {
@@ -283,14 +339,18 @@ class StudyReport {
     report_.Paragraph(fmt::format("`{}`", command));
     const MarkerStudy::Times& t = study_.times;
     report_.Paragraph(fmt::format(
-        "{} samples per pixel, seed {}, noise seed {}. Backgrounds {:.0f} s, pictures {:.0f} s; {:.0f} pixels traced again for a "
-        "picture on average. Time of all threads: geometry {:.0f} s, tracing {:.0f} s, sensor {:.0f} s, identification {:.0f} s, "
+        "{} samples per pixel, seed {}, noise seed {}. Backgrounds {:.0f} s, pictures {:.0f} s; "
+        "{:.0f} pixels traced again for a "
+        "picture on average. Time of all threads: geometry {:.0f} s, tracing {:.0f} s, sensor "
+        "{:.0f} s, identification {:.0f} s, "
         "writing {:.0f} s.",
-        study_.options.samples_per_pixel, study_.options.seed, study_.options.noise_seed, t.background, t.pictures,
+        study_.options.samples_per_pixel, study_.options.seed, study_.options.noise_seed,
+        t.background, t.pictures,
         static_cast<double>(study_.retraced_pixels) /
-            static_cast<double>(std::max<int64_t>(1, study_.composed + study_.mirrored_composed)), t.geometry,
-        t.trace, t.sensor, t.identify, t.write));
-    for (const char* file : {"hits.csv", "coverage.csv", "summary.json"}) report_.Attachment(file, ReadTextFile(folder_ / file));
+            static_cast<double>(std::max<int64_t>(1, study_.composed + study_.mirrored_composed)),
+        t.geometry, t.trace, t.sensor, t.identify, t.write));
+    for (const char* file : {"hits.csv", "coverage.csv", "summary.json"})
+      report_.Attachment(file, ReadTextFile(folder_ / file));
   }
 
   const MarkerStudy& study_;
@@ -301,8 +361,8 @@ class StudyReport {
 
 }  // namespace
 
-void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage, const std::filesystem::path& folder,
-                      const std::string& command) {
+void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage,
+                      const std::filesystem::path& folder, const std::string& command) {
   StudyReport(study, coverage, folder).Compose(command).Write(folder / "report.html");
 }
 

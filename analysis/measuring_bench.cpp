@@ -10,7 +10,8 @@ namespace {
 
 CameraSpec CameraAt(const std::string& name, const Vec3d& eye, const Vec3d& target) {
   CameraSpec camera;
-  camera.model = CameraModel::FromFieldOfView(name, 64, 64, 5.0, 5.0, LookAt(eye, target, Vec3d::UnitZ()));
+  camera.model =
+      CameraModel::FromFieldOfView(name, 64, 64, 5.0, 5.0, LookAt(eye, target, Vec3d::UnitZ()));
   return camera;
 }
 
@@ -20,7 +21,8 @@ MeasuringBench::Radiance MeasuringBench::Measure(int samples, uint64_t seed) con
   Scene scene;
   scene.name = "measuring-bench";
   scene.materials["patch"] = ReadMaterial("patch", JsonReader::FromText(material_json, "patch"));
-  scene.objects.push_back({"patch", RectangleMesh({0, -100, -100}, {0, 200, 0}, {0, 0, 200}), {}, "patch"});
+  scene.objects.push_back(
+      {"patch", RectangleMesh({0, -100, -100}, {0, 200, 0}, {0, 0, 200}), {}, "patch"});
   scene.cameras.push_back(CameraAt("camera", camera_position, Vec3d::Zero()));
   CameraSpec lamp = CameraAt("lamp", lamp_position, lamp_target);
   lamp.ring = DiodeRing{};
@@ -42,7 +44,8 @@ MeasuringBench::Radiance MeasuringBench::Measure(int samples, uint64_t seed) con
   for (int s = 0; s < samples; ++s) {
     PixelSampler sampler(Mix64(seed), static_cast<uint32_t>(s));
     const Spectral nm = response.SampleWavelengths(sampler.Next1D());
-    const auto value = static_cast<double>(tracer.TracePath(origin, direction, nm, sampler).radiance.sum());
+    const auto value =
+        static_cast<double>(tracer.TracePath(origin, direction, nm, sampler).radiance.sum());
     sum += value;
     sum2 += value * value;
   }

@@ -1,4 +1,5 @@
-// A small optical bench for checks and tests: one camera, one single-diode lamp and a flat patch at the origin.
+// A small optical bench for checks and tests: one camera, one single-diode lamp and a flat patch at
+// the origin.
 #pragma once
 
 #include "renderer/path_tracer.h"
@@ -6,8 +7,9 @@
 
 namespace retrolux {
 
-// The patch is a square of 200 mm side with normal +x, of the material that `material_json` describes; camera and
-// lamp look at its centre. The lamp is a single LED of radius 0.2 mm at the pupil of a camera of its own.
+// The patch is a square of 200 mm side with normal +x, of the material that `material_json`
+// describes; camera and lamp look at its centre. The lamp is a single LED of radius 0.2 mm at the
+// pupil of a camera of its own.
 struct MeasuringBench {
   std::string material_json = R"({"type": "diffuse", "reflectance": 1.0})";
   Vec3d camera_position = Vec3d(2000, 0, 0);

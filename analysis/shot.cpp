@@ -9,7 +9,8 @@ namespace retrolux {
 
 namespace {
 
-std::vector<const CameraSpec*> ChosenCameras(const Scene& scene, const std::vector<std::string>& names) {
+std::vector<const CameraSpec*> ChosenCameras(const Scene& scene,
+                                             const std::vector<std::string>& names) {
   std::vector<const CameraSpec*> cameras;
   if (names.empty()) {
     for (const CameraSpec& camera : scene.cameras) cameras.push_back(&camera);
@@ -20,13 +21,19 @@ std::vector<const CameraSpec*> ChosenCameras(const Scene& scene, const std::vect
 
 }  // namespace
 
-std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options, const std::filesystem::path& folder,
-                                    Progress& progress) {
+std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options,
+                                    const std::filesystem::path& folder, Progress& progress) {
   const std::vector<const CameraSpec*> cameras = ChosenCameras(scene, options.cameras);
-  ShotInfo info{scene.name, SceneHash(scene), scene.poses.empty() ? "" : scene.poses.front().name, options.trace.seed,
-                options.noise_seed, options.ids_only ? 0 : options.trace.samples_per_pixel, 0.0};
+  ShotInfo info{scene.name,
+                SceneHash(scene),
+                scene.poses.empty() ? "" : scene.poses.front().name,
+                options.trace.seed,
+                options.noise_seed,
+                options.ids_only ? 0 : options.trace.samples_per_pixel,
+                0.0};
   std::vector<double> exposures_s;
-  for (const CameraSpec* camera : cameras) exposures_s.push_back(options.ids_only ? 0.0 : ExposureSeconds(scene, *camera));
+  for (const CameraSpec* camera : cameras)
+    exposures_s.push_back(options.ids_only ? 0.0 : ExposureSeconds(scene, *camera));
 
   EnsureWritableFolder(folder);
 
@@ -36,7 +43,8 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
   for (const PlacedMarker& marker : markers) surfaces.push_back(SampleMarkerSurface(rays, marker));
 
   int64_t pixels = 0;
-  for (const CameraSpec* camera : cameras) pixels += static_cast<int64_t>(camera->model.width) * camera->model.height;
+  for (const CameraSpec* camera : cameras)
+    pixels += static_cast<int64_t>(camera->model.width) * camera->model.height;
   progress.Begin("render", pixels, "px");
   std::vector<std::string> files;
   std::vector<CameraTruth> truths;
@@ -53,24 +61,28 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
       const PathTracer tracer(scene, rays, lights, response, markers, options.trace);
       film.emplace(RenderFilm(tracer, camera.model, lights.GroupNames(), progress));
     }
-    WriteExr(folder / (name + ".exr"),
-             ShotExr(camera, ids, film ? &*film : nullptr, info, rays.BodyNames(), markers, scene.markers));
+    WriteExr(folder / (name + ".exr"), ShotExr(camera, ids, film ? &*film : nullptr, info,
+                                               rays.BodyNames(), markers, scene.markers));
     files.push_back(name + ".exr");
     if (film) {
       WritePng(folder / (name + ".png"),
-               ExposeSensor(film->electrons, camera.sensor, exposures_s[c], NoiseKey(options.noise_seed, name)));
+               ExposeSensor(film->electrons, camera.sensor, exposures_s[c],
+                            NoiseKey(options.noise_seed, name)));
       files.push_back(name + ".png");
     }
     CameraTruth truth{name, {}};
     for (size_t m = 0; m < markers.size(); ++m) {
       truth.views.push_back(ViewMarker(surfaces[m], rays, camera.model));
-      if (film) truth.views.back().centroid_radiometric_px = RadiometricCentroid(*film, markers[m].instance);
+      if (film)
+        truth.views.back().centroid_radiometric_px =
+            RadiometricCentroid(*film, markers[m].instance);
     }
     truths.push_back(std::move(truth));
     models.push_back(camera.model);
   }
   progress.End();
-  WriteTextFile(folder / "truth.json", TruthJson(truths, markers, scene.markers, scene, info).dump(2) + "\n");
+  WriteTextFile(folder / "truth.json",
+                TruthJson(truths, markers, scene.markers, scene, info).dump(2) + "\n");
   WriteTextFile(folder / "cameras.yml", CamerasYaml(models));
   files.insert(files.end(), {"truth.json", "cameras.yml"});
   return files;

@@ -15,9 +15,10 @@ struct ShotOptions {
   bool ids_only = false;
 };
 
-// Renders into `folder`, which is made if need be: NAME.exr and NAME.png a camera, truth.json and cameras.yml for the shot. Returns the
-// names of the files. Everything that can be wrong with the input is found before the first ray.
-std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options, const std::filesystem::path& folder,
-                                    Progress& progress);
+// Renders into `folder`, which is made if need be: NAME.exr and NAME.png a camera, truth.json and
+// cameras.yml for the shot. Returns the names of the files. Everything that can be wrong with the
+// input is found before the first ray.
+std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options,
+                                    const std::filesystem::path& folder, Progress& progress);
 
 }  // namespace retrolux

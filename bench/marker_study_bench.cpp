@@ -1,5 +1,5 @@
-// How long the parts of the marker study take, each beside its limit: rays against a bare Embree loop, a composed picture
-// against a full render. One thread, unless the name says otherwise.
+// How long the parts of the marker study take, each beside its limit: rays against a bare Embree
+// loop, a composed picture against a full render. One thread, unless the name says otherwise.
 //
 //   build/release/bench/marker_study_bench
 #include <benchmark/benchmark.h>
@@ -42,13 +42,15 @@ const Bench& Shared() {
 }
 
 const ComposedCamera& SharedCamera() {
-  static const ComposedCamera camera(Shared().scene, Shared().rays, Shared().camera, RingChoice::kAll,
-                                     Shared().Options(TraceOptions::Direct::kOneOfAll), NoProgress());
+  static const ComposedCamera camera(
+      Shared().scene, Shared().rays, Shared().camera, RingChoice::kAll,
+      Shared().Options(TraceOptions::Direct::kOneOfAll), NoProgress());
   return camera;
 }
 
 void Rate(benchmark::State& state, const char* name, double per_iteration) {
-  state.counters[name] = benchmark::Counter(per_iteration, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters[name] =
+      benchmark::Counter(per_iteration, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 // The limit of the id pass and of every primary ray: packets, nothing done with the hits.
@@ -57,7 +59,8 @@ void BareEmbreePackets(benchmark::State& state) {
   const Vec3f origin = bench.camera.model.Centre().cast<float>();
   std::vector<Vec3f> directions;
   for (int y = 0; y < 480; ++y) {
-    for (int x = 0; x < 640; ++x) directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
+    for (int x = 0; x < 640; ++x)
+      directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
   }
   std::vector<RayScene::PacketHit> hits(directions.size());
   for (auto _ : state) {
@@ -74,10 +77,12 @@ void BareEmbreeSingleRays(benchmark::State& state) {
   const Vec3f origin = bench.camera.model.Centre().cast<float>();
   std::vector<Vec3f> directions;
   for (int y = 0; y < 480; ++y) {
-    for (int x = 0; x < 640; ++x) directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
+    for (int x = 0; x < 640; ++x)
+      directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
   }
   for (auto _ : state) {
-    for (const Vec3f& direction : directions) benchmark::DoNotOptimize(bench.rays.Intersect(origin, direction));
+    for (const Vec3f& direction : directions)
+      benchmark::DoNotOptimize(bench.rays.Intersect(origin, direction));
   }
   Rate(state, "rays", kPixels);
 }
@@ -94,23 +99,28 @@ BENCHMARK(IdPass)->Unit(benchmark::kMillisecond);
 void Paths(benchmark::State& state, TraceOptions::Direct direct) {
   const Bench& bench = Shared();
   const std::vector<PlacedMarker> markers;
-  const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers, bench.Options(direct));
+  const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers,
+                          bench.Options(direct));
   // A row through the middle of the picture: room, mask, highlight.
   for (auto _ : state) {
     for (int x = 0; x < 640; x += 8) benchmark::DoNotOptimize(tracer.EstimatePixel(x, 150));
   }
   Rate(state, "paths", 80.0 * kSpp);
 }
-BENCHMARK_CAPTURE(Paths, OneOfAllGroups, TraceOptions::Direct::kOneOfAll)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Paths, EveryGroup, TraceOptions::Direct::kEveryGroup)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Paths, OneOfAllGroups, TraceOptions::Direct::kOneOfAll)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Paths, EveryGroup, TraceOptions::Direct::kEveryGroup)
+    ->Unit(benchmark::kMillisecond);
 
 // The parts of one picture of the study.
 void PictureGeometry(benchmark::State& state) {
   const Bench& bench = Shared();
   for (auto _ : state) {
-    const PlacedMarker marker = PlaceMarker(bench.scene, {"marker", 2, "mask", Vec3d(100, 0, 20)}, 1);
+    const PlacedMarker marker =
+        PlaceMarker(bench.scene, {"marker", 2, "mask", Vec3d(100, 0, 20)}, 1);
     const MarkerSurface surface = SampleMarkerSurface(bench.rays, marker);
-    for (const CameraSpec& camera : bench.scene.cameras) benchmark::DoNotOptimize(ViewMarker(surface, bench.rays, camera.model));
+    for (const CameraSpec& camera : bench.scene.cameras)
+      benchmark::DoNotOptimize(ViewMarker(surface, bench.rays, camera.model));
   }
   Rate(state, "pictures", 6);
 }
@@ -119,7 +129,8 @@ BENCHMARK(PictureGeometry)->Unit(benchmark::kMillisecond);
 void PictureTrace(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
   int64_t pixels = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(camera.Signal(Shared().marker, Shared().surface, &pixels));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(camera.Signal(Shared().marker, Shared().surface, &pixels));
   state.counters["pixels"] = static_cast<double>(pixels) / static_cast<double>(state.iterations());
   Rate(state, "pictures", 1);
 }
@@ -129,7 +140,8 @@ void PictureSensor(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
   uint64_t key = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(ExposeSensor(camera.Background(), camera.Camera().sensor, camera.ExposureSeconds(), ++key));
+    benchmark::DoNotOptimize(
+        ExposeSensor(camera.Background(), camera.Camera().sensor, camera.ExposureSeconds(), ++key));
   }
   Rate(state, "pictures", 1);
 }
@@ -137,7 +149,8 @@ BENCHMARK(PictureSensor)->Unit(benchmark::kMillisecond);
 
 void PictureIdentify(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
-  const DigitalImage picture = ExposeSensor(camera.Signal(Shared().marker, Shared().surface), camera.Camera().sensor, camera.ExposureSeconds(), 1);
+  const DigitalImage picture = ExposeSensor(camera.Signal(Shared().marker, Shared().surface),
+                                            camera.Camera().sensor, camera.ExposureSeconds(), 1);
   for (auto _ : state) benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   Rate(state, "pictures", 1);
 }
@@ -149,10 +162,12 @@ void ComposedPicture(benchmark::State& state) {
   uint64_t key = 0;
   for (auto _ : state) {
     const FloatPlane signal = camera.Signal(Shared().marker, Shared().surface);
-    const DigitalImage picture = ExposeSensor(signal, camera.Camera().sensor, camera.ExposureSeconds(), ++key);
+    const DigitalImage picture =
+        ExposeSensor(signal, camera.Camera().sensor, camera.ExposureSeconds(), ++key);
     benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   }
-  state.counters["pictures_per_minute"] = benchmark::Counter(60, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["pictures_per_minute"] =
+      benchmark::Counter(60, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(ComposedPicture)->Unit(benchmark::kMillisecond);
 
@@ -160,13 +175,17 @@ void FullPicture(benchmark::State& state) {
   const LimitThreads one(1);
   const Bench& bench = Shared();
   const std::vector<PlacedMarker> markers = {bench.marker};
-  const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers, bench.Options(TraceOptions::Direct::kOneOfAll));
+  const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers,
+                          bench.Options(TraceOptions::Direct::kOneOfAll));
   for (auto _ : state) {
-    const Film film = RenderFilm(tracer, bench.camera.model, bench.lights.GroupNames(), NoProgress());
-    const DigitalImage picture = ExposeSensor(film.electrons, bench.camera.sensor, bench.response.ExposureSeconds(), 1);
+    const Film film =
+        RenderFilm(tracer, bench.camera.model, bench.lights.GroupNames(), NoProgress());
+    const DigitalImage picture =
+        ExposeSensor(film.electrons, bench.camera.sensor, bench.response.ExposureSeconds(), 1);
     benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   }
-  state.counters["pictures_per_minute"] = benchmark::Counter(60, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["pictures_per_minute"] =
+      benchmark::Counter(60, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(FullPicture)->Unit(benchmark::kMillisecond)->Iterations(1);
 

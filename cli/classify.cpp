@@ -48,7 +48,8 @@ std::vector<fs::path> DebugFolders(const ClassifyOptions& options) {
 void CheckPlaces(const ClassifyOptions& options) {
   for (const fs::path& image : options.images) {
     if (!fs::is_regular_file(image)) {
-      throw InputError::At(image, "", fs::is_directory(image) ? "is a folder" : "no such file", "a picture");
+      throw InputError::At(image, "", fs::is_directory(image) ? "is a folder" : "no such file",
+                           "a picture");
     }
   }
   if (fs::is_directory(options.out)) {

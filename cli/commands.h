@@ -1,5 +1,6 @@
-// The subcommands of `retrolux`, a file each. To add one: write cli/NAME.cpp with an options struct, a
-// SetUpNAME that declares it, a RunNAME that does it; declare SetUpNAME here and call it in main.cpp.
+// The subcommands of `retrolux`, a file each. To add one: write cli/NAME.cpp with an options
+// struct, a SetUpNAME that declares it, a RunNAME that does it; declare SetUpNAME here and call it
+// in main.cpp.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -22,7 +23,8 @@ struct GlobalOptions {
   bool quiet = false;
   bool json = false;
   std::string command_line;  // as it was typed
-  std::string progress = "auto";  // auto: a bar if stderr is a terminal; json: lines for a log; none
+  std::string progress =
+      "auto";  // auto: a bar if stderr is a terminal; json: lines for a log; none
 
   uint64_t NoiseSeed() const { return noise_seed.value_or(seed); }
 };
@@ -44,6 +46,7 @@ void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
 std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global);
 
 // Tells the result: the summary as JSON on stdout with --json, else `text` unless --quiet.
-void PrintResult(const GlobalOptions& global, const nlohmann::json& summary, const std::string& text);
+void PrintResult(const GlobalOptions& global, const nlohmann::json& summary,
+                 const std::string& text);
 
 }  // namespace retrolux::cli

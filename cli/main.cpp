@@ -26,7 +26,8 @@ uint64_t ParseSeed(const std::string& option, const std::string& text) {
   uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
   if (error != std::errc{} || end != text.data() + text.size()) {
-    throw retrolux::InputError(fmt::format("{} {}: expected a whole number from 0 to 18446744073709551615", option, text));
+    throw retrolux::InputError(
+        fmt::format("{} {}: expected a whole number from 0 to 18446744073709551615", option, text));
   }
   return seed;
 }
@@ -42,7 +43,8 @@ int Guarded(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run
     fmt::print(stderr, "retrolux: {}; try again when that is mended\n", OneLine(error.what()));
     return kExitTryAgain;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "retrolux: not enough memory; try again with fewer threads or a smaller picture\n");
+    fmt::print(stderr,
+               "retrolux: not enough memory; try again with fewer threads or a smaller picture\n");
     return kExitTryAgain;
   } catch (const std::exception& error) {
     fmt::print(stderr, "retrolux: internal error, please report it: {}\n", error.what());
@@ -58,19 +60,28 @@ int main(int argc, char** argv) {
   global.command_line = "retrolux";
   for (int i = 1; i < argc; ++i) global.command_line += std::string(" ") + argv[i];
   Run run;
-  CLI::App app{"Pictures of retro-reflective markers as real cameras record them, and what to learn from them."};
+  CLI::App app{
+      "Pictures of retro-reflective markers as real cameras record them, and what to learn from "
+      "them."};
   app.set_version_flag("--version", RETROLUX_VERSION);
   app.fallthrough();
   app.add_option("--threads", global.threads, "threads to work on; 0: all that the process may use")
-      ->check(CLI::Range(0, 1024))->capture_default_str();
-  app.add_option_function<std::string>("--seed", [&](const std::string& text) { global.seed = ParseSeed("--seed", text); },
-                                       "seed of the light transport, a whole number")->default_str("1");
-  app.add_option_function<std::string>("--noise-seed", [&](const std::string& text) { global.noise_seed = ParseSeed("--noise-seed", text); },
-                                       "seed of the sensor noise; default: the seed");
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option_function<std::string>(
+         "--seed", [&](const std::string& text) { global.seed = ParseSeed("--seed", text); },
+         "seed of the light transport, a whole number")
+      ->default_str("1");
+  app.add_option_function<std::string>(
+      "--noise-seed",
+      [&](const std::string& text) { global.noise_seed = ParseSeed("--noise-seed", text); },
+      "seed of the sensor noise; default: the seed");
   app.add_flag("--quiet", global.quiet, "no progress, no result on stdout");
   app.add_flag("--json", global.json, "result as JSON on stdout");
-  app.add_option("--progress", global.progress, "auto (a bar on a terminal), json (lines for a log) or none")
-      ->check(CLI::IsMember({"auto", "json", "none"}))->capture_default_str();
+  app.add_option("--progress", global.progress,
+                 "auto (a bar on a terminal), json (lines for a log) or none")
+      ->check(CLI::IsMember({"auto", "json", "none"}))
+      ->capture_default_str();
   SetUpRender(app, global, run);
   SetUpScene(app, global, run);
   SetUpClassify(app, global, run);

@@ -54,7 +54,9 @@ class DrawnProgress : public Progress {
  protected:
   virtual void Draw(bool last) = 0;
   double Elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  double PerSecond() const { return Elapsed() > 0.0 ? static_cast<double>(done_) / Elapsed() : 0.0; }
+  double PerSecond() const {
+    return Elapsed() > 0.0 ? static_cast<double>(done_) / Elapsed() : 0.0;
+  }
   double SecondsLeft() const {
     return done_ > 0 ? static_cast<double>(total_ - done_) / PerSecond() : 0.0;
   }
@@ -76,12 +78,14 @@ class Bar : public DrawnProgress {
  protected:
   void Draw(bool last) override {
     constexpr int kWidth = 30;
-    const double share = total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
+    const double share =
+        total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
     const int filled = static_cast<int>(share * kWidth);
     const std::string time = last ? "in " + Duration(Elapsed()) : Duration(SecondsLeft()) + " left";
-    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}  {}{}", stage_, std::string(static_cast<size_t>(filled), '#'),
-               std::string(static_cast<size_t>(kWidth - filled), '.'), 100.0 * share, Rate(PerSecond(), unit_), time,
-               last ? "\n" : "");
+    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}  {}{}", stage_,
+               std::string(static_cast<size_t>(filled), '#'),
+               std::string(static_cast<size_t>(kWidth - filled), '.'), 100.0 * share,
+               Rate(PerSecond(), unit_), time, last ? "\n" : "");
     std::fflush(stderr);
   }
 };
@@ -92,10 +96,9 @@ class JsonLines : public DrawnProgress {
 
  protected:
   void Draw(bool last) override {
-    const nlohmann::json line = {{"stage", stage_},       {"done", done_},
-                                 {"total", total_},       {"unit", unit_},
-                                 {"elapsed_s", Elapsed()}, {"left_s", SecondsLeft()},
-                                 {"finished", last}};
+    const nlohmann::json line = {
+        {"stage", stage_},        {"done", done_},           {"total", total_}, {"unit", unit_},
+        {"elapsed_s", Elapsed()}, {"left_s", SecondsLeft()}, {"finished", last}};
     fmt::print(stderr, "{}\n", line.dump());
   }
 };
@@ -111,11 +114,13 @@ class Silence : public Progress {
 
 std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global) {
   if (global.progress == "json") return std::make_unique<JsonLines>();
-  if (global.quiet || global.progress == "none" || ::isatty(STDERR_FILENO) == 0) return std::make_unique<Silence>();
+  if (global.quiet || global.progress == "none" || ::isatty(STDERR_FILENO) == 0)
+    return std::make_unique<Silence>();
   return std::make_unique<Bar>();
 }
 
-void PrintResult(const GlobalOptions& global, const nlohmann::json& summary, const std::string& text) {
+void PrintResult(const GlobalOptions& global, const nlohmann::json& summary,
+                 const std::string& text) {
   if (global.json) {
     fmt::print("{}\n", summary.dump(2));
   } else if (!global.quiet) {

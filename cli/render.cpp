@@ -28,8 +28,10 @@ std::pair<int, int> ParseSize(const std::string& text) {
   const auto [cross, width_error] = std::from_chars(text.data(), end, width);
   const bool split = width_error == std::errc{} && cross != end && *cross == 'x';
   const auto [rest, height_error] = std::from_chars(split ? cross + 1 : end, end, height);
-  if (!split || height_error != std::errc{} || rest != end || width < 1 || height < 1 || width > 16384 || height > 16384) {
-    throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in px, each from 1 to 16384", text));
+  if (!split || height_error != std::errc{} || rest != end || width < 1 || height < 1 ||
+      width > 16384 || height > 16384) {
+    throw InputError(
+        fmt::format("--size {}: expected WIDTHxHEIGHT in px, each from 1 to 16384", text));
   }
   return {width, height};
 }
@@ -47,7 +49,8 @@ int RunRender(RenderCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::string> files = RenderShot(scene, command.shot, command.out, *progress);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   PrintResult(global, {{"out", command.out.string()}, {"files", files}, {"seconds", seconds}},
               fmt::format("{}: {} in {:.1f} s", command.out.string(), JoinNames(files), seconds));
   return kExitGood;
@@ -57,19 +60,28 @@ int RunRender(RenderCommand command, const GlobalOptions& global) {
 
 void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run) {
   auto command = std::make_shared<RenderCommand>();
-  CLI::App* sub = app.add_subcommand(
-      "render", "Render what the cameras of a scene record: NAME.exr (all channels), NAME.png (DN), truth.json, cameras.yml");
-  sub->add_option("scene", command->scene, "built-in scene (see `retrolux scene list`) or scene.json")->required();
+  CLI::App* sub = app.add_subcommand("render",
+                                     "Render what the cameras of a scene record: NAME.exr (all "
+                                     "channels), NAME.png (DN), truth.json, cameras.yml");
+  sub->add_option("scene", command->scene,
+                  "built-in scene (see `retrolux scene list`) or scene.json")
+      ->required();
   sub->add_option("--out", command->out, "folder for the results")->required();
-  sub->add_option("--camera", command->shot.cameras, "only these cameras, comma-separated")->delimiter(',');
+  sub->add_option("--camera", command->shot.cameras, "only these cameras, comma-separated")
+      ->delimiter(',');
   sub->add_option("--pose", command->pose, "a pose of the scene; default: as given");
   sub->add_option("--spp", command->shot.trace.samples_per_pixel, "samples per pixel")
-      ->check(CLI::Range(1, 1 << 20))->capture_default_str();
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
   sub->add_option("--size", command->size, "WxH in px, same field of view; default: the camera's");
   sub->add_option("--rings", command->rings, "whose diodes are on: all, or each camera's own only")
-      ->check(CLI::IsMember({"all", "own"}))->capture_default_str();
-  sub->add_flag("--ids-only", command->shot.ids_only, "only the id pass: ids, depth, position, normal; no light");
-  sub->callback([command, &global, &run] { run = [command, &global] { return RunRender(*command, global); }; });
+      ->check(CLI::IsMember({"all", "own"}))
+      ->capture_default_str();
+  sub->add_flag("--ids-only", command->shot.ids_only,
+                "only the id pass: ids, depth, position, normal; no light");
+  sub->callback([command, &global, &run] {
+    run = [command, &global] { return RunRender(*command, global); };
+  });
 }
 
 }  // namespace retrolux::cli

@@ -38,8 +38,8 @@ std::string UtcNow() {
   return text;
 }
 
-void WriteRunJson(const StudyMarkersCommand& command, const GlobalOptions& global, const MarkerStudy& study,
-                  const std::string& started, double seconds) {
+void WriteRunJson(const StudyMarkersCommand& command, const GlobalOptions& global,
+                  const MarkerStudy& study, const std::string& started, double seconds) {
   const MarkerStudy::Times& t = study.times;
   const nlohmann::json run = {
       {"schema", "retrolux/run-1"},
@@ -55,20 +55,30 @@ void WriteRunJson(const StudyMarkersCommand& command, const GlobalOptions& globa
       {"pictures", study.results.size()},
       {"pictures_rendered", study.composed},
       {"pictures_per_minute", 60.0 * static_cast<double>(study.results.size()) / seconds},
-      {"times", {{"background_wall", t.background}, {"pictures_wall", t.pictures}, {"geometry", t.geometry}, {"trace", t.trace},
-                 {"sensor", t.sensor}, {"identify", t.identify}, {"write", t.write}}}};
+      {"times",
+       {{"background_wall", t.background},
+        {"pictures_wall", t.pictures},
+        {"geometry", t.geometry},
+        {"trace", t.trace},
+        {"sensor", t.sensor},
+        {"identify", t.identify},
+        {"write", t.write}}}};
   WriteTextFile(command.out / "run.json", run.dump(2) + "\n");
 }
 
-std::string Text(const MarkerStudy& study, const StudyCoverage& coverage, const std::filesystem::path& report, double seconds) {
+std::string Text(const MarkerStudy& study, const StudyCoverage& coverage,
+                 const std::filesystem::path& report, double seconds) {
   std::string text;
   for (const CellSet& set : coverage.Sets()) {
     if (set.name != "satisfies" && set.name != "all" && set.name != "expanded") continue;
     if (study.poses.size() > 3) continue;
-    text += fmt::format("marker {}  {:<10} {:<10} {:6.2f} %  {:8.0f} mm2\n", set.marker, set.name, set.pose, set.percent, set.area_mm2);
+    text += fmt::format("marker {}  {:<10} {:<10} {:6.2f} %  {:8.0f} mm2\n", set.marker, set.name,
+                        set.pose, set.percent, set.area_mm2);
   }
-  return text + fmt::format("{} pictures in {:.1f} s ({:.0f} a minute)\nreport: {}", study.results.size(), seconds,
-                            60.0 * static_cast<double>(study.results.size()) / seconds, report.string());
+  return text + fmt::format("{} pictures in {:.1f} s ({:.0f} a minute)\nreport: {}",
+                            study.results.size(), seconds,
+                            60.0 * static_cast<double>(study.results.size()) / seconds,
+                            report.string());
 }
 
 int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
@@ -76,7 +86,9 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
   command.study.poses = ChosenPoses(scene, command.poses);
   command.study.seed = global.seed;
   command.study.noise_seed = global.NoiseSeed();
-  command.study.keep = command.keep == "all" ? Keep::kAll : command.keep == "misses" ? Keep::kMisses : Keep::kSamples;
+  command.study.keep = command.keep == "all"      ? Keep::kAll
+                       : command.keep == "misses" ? Keep::kMisses
+                                                  : Keep::kSamples;
   const auto progress = MakeProgress(global);
   const std::string started = UtcNow();
   const auto start = std::chrono::steady_clock::now();
@@ -84,7 +96,8 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
   const StudyCoverage coverage(study);
   WriteStudyFiles(study, coverage, command.out);
   WriteStudyReport(study, coverage, command.out, global.command_line);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   WriteRunJson(command, global, study, started, seconds);
   nlohmann::json summary = StudySummary(study, coverage);
   summary["report"] = (command.out / "report.html").string();
@@ -96,21 +109,39 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
 }  // namespace
 
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run) {
-  CLI::App* study = app.add_subcommand("study", "The studies; each writes report.html, its tables and run.json");
+  CLI::App* study =
+      app.add_subcommand("study", "The studies; each writes report.html, its tables and run.json");
   auto command = std::make_shared<StudyMarkersCommand>();
   CLI::App* sub = study->add_subcommand(
       "markers", "Where on the mask do the CT room's cameras identify markers? (thesis chapter 3)");
   sub->add_option("--out", command->out, "folder for the results")->required();
-  sub->add_option("--scene", command->scene, "a room with an object 'mask' and front... and back... cameras")->capture_default_str();
-  sub->add_option("--markers", command->study.markers, "numbers of the marker set")->delimiter(',')->capture_default_str();
-  sub->add_option("--poses", command->poses, "names of poses, or 'scan': every 5 mm from start to end")->delimiter(',')->capture_default_str();
-  sub->add_option("--method", "how markers are identified")->check(CLI::IsMember({"edges"}))->default_str("edges");
-  sub->add_option("--spp", command->study.samples_per_pixel, "samples per pixel")->check(CLI::Range(1, 1 << 16))->capture_default_str();
-  sub->add_option("--stride", command->study.stride, "only every N-th row and column of the grid, for a quick look")
-      ->check(CLI::Range(1, 14))->capture_default_str();
-  sub->add_option("--keep", command->keep, "pictures to keep: all, misses, or samples for the report")
-      ->check(CLI::IsMember({"all", "misses", "samples"}))->capture_default_str();
-  sub->callback([command, &global, &run] { run = [command, &global] { return RunStudyMarkers(*command, global); }; });
+  sub->add_option("--scene", command->scene,
+                  "a room with an object 'mask' and front... and back... cameras")
+      ->capture_default_str();
+  sub->add_option("--markers", command->study.markers, "numbers of the marker set")
+      ->delimiter(',')
+      ->capture_default_str();
+  sub->add_option("--poses", command->poses,
+                  "names of poses, or 'scan': every 5 mm from start to end")
+      ->delimiter(',')
+      ->capture_default_str();
+  sub->add_option("--method", "how markers are identified")
+      ->check(CLI::IsMember({"edges"}))
+      ->default_str("edges");
+  sub->add_option("--spp", command->study.samples_per_pixel, "samples per pixel")
+      ->check(CLI::Range(1, 1 << 16))
+      ->capture_default_str();
+  sub->add_option("--stride", command->study.stride,
+                  "only every N-th row and column of the grid, for a quick look")
+      ->check(CLI::Range(1, 14))
+      ->capture_default_str();
+  sub->add_option("--keep", command->keep,
+                  "pictures to keep: all, misses, or samples for the report")
+      ->check(CLI::IsMember({"all", "misses", "samples"}))
+      ->capture_default_str();
+  sub->callback([command, &global, &run] {
+    run = [command, &global] { return RunStudyMarkers(*command, global); };
+  });
 }
 
 }  // namespace retrolux::cli

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void ThrowErrno(const fs::path& path, const char* doing, int error) {
-  const std::string message = fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(error));
+  const std::string message =
+      fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(error));
   if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == ENOMEM) {
     throw TryAgainError(message);
   }

@@ -7,8 +7,9 @@
 
 namespace retrolux {
 
-// Writes to Temporary(); Commit() gives it its final name. If never committed, the temporary file is
-// removed. Throws InputError if the folder can't be written to, TryAgainError if the disk is full.
+// Writes to Temporary(); Commit() gives it its final name. If never committed, the temporary file
+// is removed. Throws InputError if the folder can't be written to, TryAgainError if the disk is
+// full.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
@@ -31,8 +32,8 @@ void WriteTextFile(const std::filesystem::path& path, std::string_view text);
 // The whole file. InputError if it can't be read.
 std::string ReadTextFile(const std::filesystem::path& path);
 
-// Makes the folder and its parents and tries that files can be made in it. InputError if not: commands
-// call this before the work, not after it.
+// Makes the folder and its parents and tries that files can be made in it. InputError if not:
+// commands call this before the work, not after it.
 void EnsureWritableFolder(const std::filesystem::path& folder);
 
 }  // namespace retrolux

@@ -52,7 +52,8 @@ CameraModel CameraModel::Resized(int new_width, int new_height) const {
 
 namespace {
 
-// Shortest text that reads back as the same double, with the point that YAML wants for a real number.
+// Shortest text that reads back as the same double, with the point that YAML wants for a real
+// number.
 std::string Real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".";
@@ -74,7 +75,8 @@ std::string CamerasYaml(const std::vector<CameraModel>& cameras) {
   std::string yaml =
       "%YAML:1.0\n---\n"
       "schema: \"retrolux/cameras-1\"\n"
-      "version: \"" RETROLUX_VERSION "\"\n"
+      "version: \"" RETROLUX_VERSION
+      "\"\n"
       "pixel_origin: \"center\"\n"
       "units: \"mm, px\"\n"
       "axes: \"camera x right, y down, z forward; R, t: camera_from_world\"\n"
@@ -85,11 +87,12 @@ std::string CamerasYaml(const std::vector<CameraModel>& cameras) {
     yaml += "   -\n";
     yaml += fmt::format("      name: \"{}\"\n      image_width: {}\n      image_height: {}\n",
                         camera.name, camera.width, camera.height);
-    yaml += Matrix("camera_matrix", 3, 3,
-                   {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
+    yaml +=
+        Matrix("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
     yaml += Matrix("distortion_coefficients", 1, 5, {0, 0, 0, 0, 0});
-    yaml += Matrix("R", 3, 3,
-                   {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)});
+    yaml +=
+        Matrix("R", 3, 3,
+               {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)});
     yaml += Matrix("t", 3, 1, {t.x(), t.y(), t.z()});
   }
   return yaml;

@@ -1,4 +1,5 @@
-// The geometry of a camera: where a point of the world falls in the picture, and the ray of a pixel.
+// The geometry of a camera: where a point of the world falls in the picture, and the ray of a
+// pixel.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +17,8 @@ struct Ray {
   Vec3d direction;  // unit
 };
 
-// A pinhole camera in OpenCV's convention: camera x right, y down, z forward; pixel (0, 0) is the centre
-// of the top-left pixel, so u = fx x/z + cx with cx = (width - 1) / 2 for a centred lens.
+// A pinhole camera in OpenCV's convention: camera x right, y down, z forward; pixel (0, 0) is the
+// centre of the top-left pixel, so u = fx x/z + cx with cx = (width - 1) / 2 for a centred lens.
 struct CameraModel {
   std::string name;
   int width = 640;
@@ -36,7 +37,8 @@ struct CameraModel {
   // Pixel coordinates; nothing for a point beside or behind the camera (camera z <= 0).
   std::optional<Vec2d> Project(const Vec3d& x_in_world) const;
   Ray RayThrough(const Vec2d& px) const;
-  // Whether the pixel coordinates lie inside the picture, half a pixel around the outer centres included.
+  // Whether the pixel coordinates lie inside the picture, half a pixel around the outer centres
+  // included.
   bool InFrame(const Vec2d& px) const;
   // The same lens and field of view on another number of pixels. Non-square factors are allowed.
   CameraModel Resized(int new_width, int new_height) const;

@@ -32,7 +32,9 @@ void CsvWriter::Line(const std::vector<std::string>& cells) {
   text_ += '\n';
 }
 
-void CsvWriter::Write(const std::filesystem::path& path) const { WriteTextFile(path, text_); }
+void CsvWriter::Write(const std::filesystem::path& path) const {
+  WriteTextFile(path, text_);
+}
 
 NumberTable ReadNumberTable(const std::filesystem::path& path) {
   std::istringstream stream(ReadTextFile(path));

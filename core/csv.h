@@ -1,5 +1,5 @@
-// Tables: comma-separated, first line the header with units in the names. Lines that begin with '#' are
-// comments (sources) in the tables that we read; the tables that we write have none.
+// Tables: comma-separated, first line the header with units in the names. Lines that begin with '#'
+// are comments (sources) in the tables that we read; the tables that we write have none.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ class CsvWriter {
  public:
   explicit CsvWriter(const std::vector<std::string>& columns);
 
-  // One row; the number of cells must be that of the columns. Cells with commas or quotes are quoted.
+  // One row; the number of cells must be that of the columns. Cells with commas or quotes are
+  // quoted.
   void Row(const std::vector<std::string>& cells);
   void Write(const std::filesystem::path& path) const;
   const std::string& Text() const { return text_; }

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 fs::path DataPath(const fs::path& relative) {
   for (const fs::path& part : relative) {
     if (relative.is_absolute() || part == "..") {
-      throw InputError(fmt::format("{}: a path that leaves the data folder; expected one within it", relative.string()));
+      throw InputError(fmt::format("{}: a path that leaves the data folder; expected one within it",
+                                   relative.string()));
     }
   }
   std::vector<fs::path> roots;

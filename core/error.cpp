@@ -50,7 +50,8 @@ std::string JoinNames(const std::vector<std::string>& names) {
 }
 
 void FailCheck(const char* condition, const char* file, int line, const std::string& values) {
-  throw std::logic_error(fmt::format("{}:{}: check failed: {} ({})", file, line, condition, values));
+  throw std::logic_error(
+      fmt::format("{}:{}: check failed: {} ({})", file, line, condition, values));
 }
 
 }  // namespace retrolux

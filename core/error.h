@@ -1,6 +1,6 @@
-// Three kinds of failure, three means: the user's data throw InputError, a full disk or short memory
-// throws TryAgainError, our own fault trips RETROLUX_CHECK. A normal miss is a std::optional.
-// Only cli/main.cpp catches, and turns them into exit codes.
+// Three kinds of failure, three means: the user's data throw InputError, a full disk or short
+// memory throws TryAgainError, our own fault trips RETROLUX_CHECK. A normal miss is a
+// std::optional. Only cli/main.cpp catches, and turns them into exit codes.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,7 +30,8 @@ class TryAgainError : public std::runtime_error {
 };
 
 // Of `names`, the one closest to `name` by edit distance if it is close enough to be a slip of the
-// pen, else the empty string. For messages of the form "unknown key 'ringz', did you mean 'rings'?".
+// pen, else the empty string. For messages of the form "unknown key 'ringz', did you mean
+// 'rings'?".
 std::string NearestName(std::string_view name, const std::vector<std::string>& names);
 
 // "a, b, c"
@@ -42,9 +43,9 @@ std::string JoinNames(const std::vector<std::string>& names);
 }  // namespace retrolux
 
 // Our own fault if false; the further arguments are an fmt format and its values.
-#define RETROLUX_CHECK(condition, ...)                                              \
-  do {                                                                              \
-    if (!(condition)) {                                                             \
+#define RETROLUX_CHECK(condition, ...)                                                 \
+  do {                                                                                 \
+    if (!(condition)) {                                                                \
       ::retrolux::FailCheck(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)); \
-    }                                                                               \
+    }                                                                                  \
   } while (false)

@@ -4,6 +4,8 @@
 
 namespace retrolux {
 
-std::string HexHash(uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string HexHash(uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
 
 }  // namespace retrolux

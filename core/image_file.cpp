@@ -21,7 +21,11 @@ struct Size {
 };
 
 Size SizeOf(const ExrChannel& channel) {
-  return std::visit([](const auto& plane) { return Size{plane.width, plane.height}; }, channel.plane);
+  return std::visit(
+      [](const auto& plane) {
+        return Size{plane.width, plane.height};
+      },
+      channel.plane);
 }
 
 [[noreturn]] void ThrowWrite(const fs::path& file, const std::string& reason) {
@@ -36,16 +40,21 @@ Size SizeOf(const ExrChannel& channel) {
 // libpng says what it thinks of a cut-off file on stderr; so we look first.
 void CheckPngIsWhole(const fs::path& file) {
   const std::string bytes = ReadTextFile(file);
-  if (!bytes.starts_with("\x89PNG") || bytes.find("IEND", bytes.size() < 12 ? 0 : bytes.size() - 12) != std::string::npos) return;
+  if (!bytes.starts_with("\x89PNG") ||
+      bytes.find("IEND", bytes.size() < 12 ? 0 : bytes.size() - 12) != std::string::npos)
+    return;
   throw InputError::At(file, "", "a PNG file that is cut off", "a whole picture");
 }
 
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string FirstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
 
 std::unique_ptr<OIIO::ImageInput> Open(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
-    throw InputError::At(file, "", fs::is_directory(file, error) ? "is a folder" : "no such file", "a picture");
+    throw InputError::At(file, "", fs::is_directory(file, error) ? "is a folder" : "no such file",
+                         "a picture");
   }
   CheckPngIsWhole(file);
   auto input = OIIO::ImageInput::open(file.string());
@@ -63,7 +72,8 @@ const FloatPlane& ExrImage::Float(const std::string& name) const {
       names.push_back(channel.name);
     }
   }
-  throw InputError(fmt::format("no FLOAT channel '{}'; expected one of {}", name, JoinNames(names)));
+  throw InputError(
+      fmt::format("no FLOAT channel '{}'; expected one of {}", name, JoinNames(names)));
 }
 
 const IdPlane& ExrImage::Ids(const std::string& name) const {
@@ -99,7 +109,8 @@ void WriteExr(const fs::path& file, const ExrImage& image) {
   for (size_t c = 0; c < count; ++c) {
     std::visit(
         [&](const auto& plane) {
-          RETROLUX_CHECK(plane.data.size() == pixels, "{} has another size", image.channels[c].name);
+          RETROLUX_CHECK(plane.data.size() == pixels, "{} has another size",
+                         image.channels[c].name);
           for (size_t i = 0; i < pixels; ++i) {
             std::memcpy(&native[i * count + c], &plane.data[i], sizeof(uint32_t));
           }
@@ -152,7 +163,8 @@ std::string EncodePng(const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const 
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   auto output = OIIO::ImageOutput::create("memory.png", &memory);
-  RETROLUX_CHECK(output && output->open("memory.png", spec) && output->write_image(format, pixels) && output->close(),
+  RETROLUX_CHECK(output && output->open("memory.png", spec) &&
+                     output->write_image(format, pixels) && output->close(),
                  "PNG in memory");
   return {bytes.begin(), bytes.end()};
 }
@@ -161,7 +173,8 @@ std::string EncodePng(const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const 
 
 void WritePng(const fs::path& file, const DigitalImage& image) {
   const bool wide = image.bits > 8;
-  OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1, wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
+  OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1,
+                       wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
   spec.attribute("png:compressionLevel", 1);
   if (wide) {
     WriteTextFile(file, EncodePng(spec, OIIO::TypeUInt16, image.dn.data.data()));

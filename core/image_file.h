@@ -1,5 +1,5 @@
-// Pictures on disk: multi-layer OpenEXR with its description, and PNG in digital numbers. The only part
-// that knows OpenImageIO. Everything is written beside its final name and renamed.
+// Pictures on disk: multi-layer OpenEXR with its description, and PNG in digital numbers. The only
+// part that knows OpenImageIO. Everything is written beside its final name and renamed.
 #pragma once
 
 #include <filesystem>
@@ -34,8 +34,8 @@ ExrImage ReadExr(const std::filesystem::path& file);
 // Grey PNG: 8 bit for images of up to 8 bits, else 16 bit with the numbers right-aligned.
 void WritePng(const std::filesystem::path& file, const DigitalImage& image);
 
-// Any picture that OpenImageIO reads, as grey: colours by Rec. 709 luma weights. 8-bit files give 8 bits,
-// all others 16. InputError if the file is not a picture.
+// Any picture that OpenImageIO reads, as grey: colours by Rec. 709 luma weights. 8-bit files give 8
+// bits, all others 16. InputError if the file is not a picture.
 DigitalImage ReadGrey(const std::filesystem::path& file);
 
 // 8-bit RGB, three numbers a pixel, for pictures that people look at.

@@ -11,13 +11,16 @@ namespace {
 // What a node is, in few words, for "found ...".
 std::string Describe(const nlohmann::json& node) {
   // Not dumped: a file from elsewhere may nest deeper than the stack allows.
-  if (node.is_structured()) return fmt::format("{} of {} entries", node.is_array() ? "an array" : "an object", node.size());
+  if (node.is_structured())
+    return fmt::format("{} of {} entries", node.is_array() ? "an array" : "an object", node.size());
   std::string text = node.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return fmt::format("{} {}", node.type_name(), text);
 }
 
-std::string Range(double min, double max) { return fmt::format("a number from {} to {}", min, max); }
+std::string Range(double min, double max) {
+  return fmt::format("a number from {} to {}", min, max);
+}
 
 }  // namespace
 
@@ -31,10 +34,12 @@ JsonReader JsonReader::FromText(const std::string& text, const std::filesystem::
   try {
     document->root = nlohmann::json::parse(text, nullptr, true, /*ignore_comments=*/true);
   } catch (const nlohmann::json::parse_error& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: ...": keep what follows the tag.
+    // "[json.exception.parse_error.101] parse error at line 3, column 5: ...": keep what follows
+    // the tag.
     const std::string what = error.what();
     const size_t start = what.find("] ");
-    throw InputError::At(file, "", start == std::string::npos ? what : what.substr(start + 2), "JSON");
+    throw InputError::At(file, "", start == std::string::npos ? what : what.substr(start + 2),
+                         "JSON");
   } catch (const nlohmann::json::out_of_range&) {
     throw InputError::At(file, "", "a number too large for a double", "finite numbers");
   }
@@ -120,7 +125,9 @@ bool JsonReader::Bool(const std::string& key, bool fallback) {
   return child.node_->get<bool>();
 }
 
-std::string JsonReader::String(const std::string& key) { return Child(key).AsString(); }
+std::string JsonReader::String(const std::string& key) {
+  return Child(key).AsString();
+}
 
 std::string JsonReader::String(const std::string& key, const std::string& fallback) {
   return Has(key) ? String(key) : fallback;

@@ -1,5 +1,5 @@
-// Reads JSON (comments allowed) with errors that name file, place, what was found and what was expected.
-// A key that nobody asked for is an error, with the nearest known name.
+// Reads JSON (comments allowed) with errors that name file, place, what was found and what was
+// expected. A key that nobody asked for is an error, with the nearest known name.
 #pragma once
 
 #include <filesystem>
@@ -66,8 +66,11 @@ class JsonReader {
     std::filesystem::path file;
     nlohmann::json root;
   };
-  JsonReader(std::shared_ptr<const Document> document, const nlohmann::json* node, std::string pointer)
-      : document_(std::move(document)), node_(node), pointer_(std::move(pointer)),
+  JsonReader(std::shared_ptr<const Document> document, const nlohmann::json* node,
+             std::string pointer)
+      : document_(std::move(document)),
+        node_(node),
+        pointer_(std::move(pointer)),
         read_(std::make_shared<std::set<std::string>>()) {}
   void RequireObject() const;
 

@@ -23,7 +23,8 @@ const MarkerShape& MarkerSet::ByName(const std::string& name) const {
     if (shape.name == name) return shape;
     names.push_back(shape.name);
   }
-  throw InputError(fmt::format("marker '{}' is not in the set; expected one of {}", name, JoinNames(names)));
+  throw InputError(
+      fmt::format("marker '{}' is not in the set; expected one of {}", name, JoinNames(names)));
 }
 
 const MarkerShape& MarkerSet::ByNumber(int number) const {
@@ -32,7 +33,8 @@ const MarkerShape& MarkerSet::ByNumber(int number) const {
     if (shape.number == number) return shape;
     numbers.push_back(std::to_string(shape.number));
   }
-  throw InputError(fmt::format("marker {} is not in the set; expected one of {}", number, JoinNames(numbers)));
+  throw InputError(
+      fmt::format("marker {} is not in the set; expected one of {}", number, JoinNames(numbers)));
 }
 
 std::optional<int> MarkerSet::NumberWithEdges(int straight_edges) const {
@@ -67,7 +69,8 @@ MarkerShape ReadShape(JsonReader& json, double size_mm) {
       const std::vector<double> corner = corners.Child(i).Numbers(2);
       shape.outline_mm.emplace_back(corner[0], corner[1]);
       if (shape.outline_mm.back().cwiseAbs().maxCoeff() > 0.5 * size_mm) {
-        corners.Child(i).Fail("a corner outside the square of the marker", "coordinates within +- size_mm / 2");
+        corners.Child(i).Fail("a corner outside the square of the marker",
+                              "coordinates within +- size_mm / 2");
       }
     }
     if (shape.outline_mm.size() < 3 || !(SignedArea(shape.outline_mm) > 0.0)) {

@@ -10,12 +10,12 @@
 
 namespace retrolux {
 
-// One shape in the marker frame: mm, origin at the centre of the 15 x 15 mm square, x right and y up when
-// one looks at the marker from outside.
+// One shape in the marker frame: mm, origin at the centre of the 15 x 15 mm square, x right and y
+// up when one looks at the marker from outside.
 struct MarkerShape {
   int number = 0;  // 1 .. 6 for identifiable markers, 0 for the standard marker
   std::string name;
-  Polygon outline_mm;  // corners, counter-clockwise; a disc is given by 128 corners
+  Polygon outline_mm;      // corners, counter-clockwise; a disc is given by 128 corners
   int straight_edges = 0;  // 0 for a disc
 
   bool Contains(const Vec2d& x_in_marker) const;

@@ -37,7 +37,9 @@ LimitThreads::LimitThreads(int threads) {
                                      static_cast<size_t>(limit));
 }
 
-LimitThreads::~LimitThreads() { delete static_cast<tbb::global_control*>(control_); }
+LimitThreads::~LimitThreads() {
+  delete static_cast<tbb::global_control*>(control_);
+}
 
 int AvailableThreads() {
   cpu_set_t set;

@@ -22,8 +22,8 @@ class Progress {
 // Tells nobody.
 Progress& NoProgress();
 
-// body(i) for i in [0, count), in any order, on the threads that LimitThreads allows. An exception of
-// one call stops the loop and is thrown again here.
+// body(i) for i in [0, count), in any order, on the threads that LimitThreads allows. An exception
+// of one call stops the loop and is thrown again here.
 void ParallelFor(int64_t count, const std::function<void(int64_t)>& body);
 
 // While it lives, at most `threads` threads work (0: all that the process may use).

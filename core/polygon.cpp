@@ -6,7 +6,9 @@ namespace retrolux {
 
 namespace {
 
-double Cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double Cross(const Vec2d& a, const Vec2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 }  // namespace
 

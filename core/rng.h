@@ -1,4 +1,5 @@
-// Random numbers from keys, not from state: any number can be made alone, in any order, by any thread.
+// Random numbers from keys, not from state: any number can be made alone, in any order, by any
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,19 @@ constexpr uint64_t Mix64(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-constexpr uint64_t CombineKeys(uint64_t a, uint64_t b) { return Mix64(a ^ Mix64(b)); }
+constexpr uint64_t CombineKeys(uint64_t a, uint64_t b) {
+  return Mix64(a ^ Mix64(b));
+}
 
 // [0, 1) with 24 bits, so that it never rounds up to 1.
-constexpr float UnitFloat(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+constexpr float UnitFloat(uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 
 // [0, 1) with 53 bits.
-constexpr double UnitDouble(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double UnitDouble(uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 // A stream of independent numbers that belongs to one key.
 class KeyedRng {

@@ -1,9 +1,10 @@
-// Points for Monte Carlo integration: padded, Owen-scrambled Sobol' points, keyed by pixel and sample.
+// Points for Monte Carlo integration: padded, Owen-scrambled Sobol' points, keyed by pixel and
+// sample.
 //
-// Dimensions are handed out in pairs; each pair is the (0, 2)-sequence of Sobol's first two dimensions
-// with its own scramble and its own shuffled order of samples (Burley, "Practical hash-based Owen
-// scrambling", JCGT 9(4), 2020). The first 2^k samples of a pixel are stratified in every pair and in
-// every single dimension.
+// Dimensions are handed out in pairs; each pair is the (0, 2)-sequence of Sobol's first two
+// dimensions with its own scramble and its own shuffled order of samples (Burley, "Practical
+// hash-based Owen scrambling", JCGT 9(4), 2020). The first 2^k samples of a pixel are stratified in
+// every pair and in every single dimension.
 #pragma once
 
 #include "core/conventions.h"
@@ -21,7 +22,8 @@ constexpr uint32_t ReverseBits(uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// Owen scrambling of a bit-reversed number by a hash (Laine and Karras 2011, constants of Vegdahl 2021).
+// Owen scrambling of a bit-reversed number by a hash (Laine and Karras 2011, constants of Vegdahl
+// 2021).
 constexpr uint32_t LaineKarras(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -35,8 +37,8 @@ constexpr uint32_t OwenScramble(uint32_t x, uint32_t seed) {
   return ReverseBits(LaineKarras(ReverseBits(x), seed));
 }
 
-// Second dimension of the Sobol' sequence of an index given bit-reversed: the product with the Pascal matrix
-// modulo 2, which is a Kronecker power of [[1, 1], [0, 1]] and so takes five steps.
+// Second dimension of the Sobol' sequence of an index given bit-reversed: the product with the
+// Pascal matrix modulo 2, which is a Kronecker power of [[1, 1], [0, 1]] and so takes five steps.
 constexpr uint32_t SecondDimension(uint32_t reversed_index) {
   uint32_t x = reversed_index;
   x ^= (x << 16) & 0xffff0000u;
@@ -60,8 +62,8 @@ class PixelSampler {
     const uint32_t index = sobol::OwenScramble(sample_, static_cast<uint32_t>(key));
     const uint32_t reversed = sobol::ReverseBits(index);
     const uint32_t first = sobol::OwenScramble(reversed, static_cast<uint32_t>(seeds));
-    const uint32_t second = sobol::OwenScramble(sobol::SecondDimension(reversed),
-                                                static_cast<uint32_t>(seeds >> 32));
+    const uint32_t second =
+        sobol::OwenScramble(sobol::SecondDimension(reversed), static_cast<uint32_t>(seeds >> 32));
     return {UnitFloat(first), UnitFloat(second)};
   }
 

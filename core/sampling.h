@@ -8,8 +8,8 @@
 
 namespace retrolux {
 
-// An orthonormal frame around a unit normal (Duff et al., "Building an orthonormal basis, revisited",
-// JCGT 6(1), 2017). Local z is the normal.
+// An orthonormal frame around a unit normal (Duff et al., "Building an orthonormal basis,
+// revisited", JCGT 6(1), 2017). Local z is the normal.
 struct Frame {
   Vec3f tangent, bitangent, normal;
 
@@ -44,10 +44,12 @@ inline Vec3f SampleCosineHemisphere(const Vec2f& u) {
   const Vec2f d = SampleUnitDisc(u);
   return {d.x(), d.y(), std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()))};
 }
-inline float PdfCosineHemisphere(float cos_theta) { return std::max(0.0f, cos_theta) / kPiF; }
+inline float PdfCosineHemisphere(float cos_theta) {
+  return std::max(0.0f, cos_theta) / kPiF;
+}
 
-// The balance heuristic of multiple importance sampling (Veach 1995): the share of the technique whose
-// density is `pdf`.
+// The balance heuristic of multiple importance sampling (Veach 1995): the share of the technique
+// whose density is `pdf`.
 inline float BalanceHeuristic(float pdf, float other_pdf) {
   const float sum = pdf + other_pdf;
   return sum > 0.0f ? pdf / sum : 0.0f;

@@ -21,8 +21,8 @@ struct RigidTransform {
   }
 };
 
-// camera_from_world of a camera at `eye` that looks at `target` with the world direction `up` upwards
-// in the picture (camera y down). `up` must not be parallel to the line of sight.
+// camera_from_world of a camera at `eye` that looks at `target` with the world direction `up`
+// upwards in the picture (camera y down). `up` must not be parallel to the line of sight.
 inline RigidTransform LookAt(const Vec3d& eye, const Vec3d& target, const Vec3d& up) {
   const Vec3d forward = (target - eye).normalized();
   const Vec3d right = forward.cross(up).normalized();

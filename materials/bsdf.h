@@ -1,6 +1,7 @@
-// How a surface scatters light. To add a BSDF: write materials/NAME.cpp with the class in an anonymous
-// namespace and MakeNAME; add its row to the table in bsdf_factory.cpp. The tests of every BSDF
-// (sampling against density, reciprocity, energy) run over materials/data/library.json by themselves.
+// How a surface scatters light. To add a BSDF: write materials/NAME.cpp with the class in an
+// anonymous namespace and MakeNAME; add its row to the table in bsdf_factory.cpp. The tests of
+// every BSDF (sampling against density, reciprocity, energy) run over materials/data/library.json
+// by themselves.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,7 @@ namespace retrolux {
 
 struct BsdfValue {
   Spectral f_cos = Spectral::Zero();  // BSDF times |cos(wi)|, 1/sr
-  float pdf = 0.0f;                   // of Bsdf::Sample to choose wi, 1/sr; does not depend on the wavelengths
+  float pdf = 0.0f;  // of Bsdf::Sample to choose wi, 1/sr; does not depend on the wavelengths
 };
 
 struct BsdfSample {
@@ -22,8 +23,8 @@ struct BsdfSample {
 };
 
 // Scattering at an opaque surface. All directions are unit vectors in the local frame (z = shading
-// normal) and point away from the surface; `wo` to where the light goes, `wi` to where it comes from.
-// Zero where either lies below the surface. `nm` holds the wavelengths of the path.
+// normal) and point away from the surface; `wo` to where the light goes, `wi` to where it comes
+// from. Zero where either lies below the surface. `nm` holds the wavelengths of the path.
 class Bsdf {
  public:
   virtual ~Bsdf() = default;

@@ -1,11 +1,11 @@
-// A rough dielectric coat and the diffuse body under it: the surface part shared by the mask's plastic
-// and the cover of retro-reflective sheeting.
+// A rough dielectric coat and the diffuse body under it: the surface part shared by the mask's
+// plastic and the cover of retro-reflective sheeting.
 //
 //   f = F D G2 / (4 cos cos)  +  reflectance / pi  (1 - E(wo)) (1 - E(wi)) / (1 - E_mean)
 //
 // with E the directional albedo of the coat's reflection. The second term couples the coat with the
-// body so that a body of reflectance 1 reflects exactly what arrives (Kelemen and Szirmay-Kalos 2001):
-// reciprocal, and no energy lost to the single scattering of the microfacet model.
+// body so that a body of reflectance 1 reflects exactly what arrives (Kelemen and Szirmay-Kalos
+// 2001): reciprocal, and no energy lost to the single scattering of the microfacet model.
 #pragma once
 
 #include "core/sampling.h"
@@ -19,8 +19,8 @@ class Coat {
  public:
   Coat(float ior, float alpha) : ior_(ior), alpha_(alpha), albedo_(ior, alpha) {}
 
-  // The coat's own reflection: f times cos(wi), and the density of SampleSpecular; both 1/sr. Both directions
-  // above the surface.
+  // The coat's own reflection: f times cos(wi), and the density of SampleSpecular; both 1/sr. Both
+  // directions above the surface.
   struct Specular {
     float f_cos, pdf;
   };
@@ -28,7 +28,8 @@ class Coat {
     const Vec3f h = (wo + wi).normalized();
     const float facets = ggx::Distribution(h, alpha_) / (4.0f * wo.z());
     const float lambda = ggx::Lambda(wo, alpha_);
-    return {ggx::FresnelDielectric(wo.dot(h), ior_) * facets / (1.0f + lambda + ggx::Lambda(wi, alpha_)),
+    return {ggx::FresnelDielectric(wo.dot(h), ior_) * facets /
+                (1.0f + lambda + ggx::Lambda(wi, alpha_)),
             facets / (1.0f + lambda)};
   }
   Vec3f SampleSpecular(const Vec3f& wo, const Vec2f& u) const {

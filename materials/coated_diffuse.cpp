@@ -12,7 +12,9 @@ namespace {
 class CoatedDiffuse : public Bsdf {
  public:
   CoatedDiffuse(Spectrum reflectance, float ior, float alpha)
-      : reflectance_(std::move(reflectance)), mean_reflectance_(reflectance_.Max()), coat_(ior, alpha) {}
+      : reflectance_(std::move(reflectance)),
+        mean_reflectance_(reflectance_.Max()),
+        coat_(ior, alpha) {}
 
   BsdfValue Evaluate(const Vec3f& wo, const Vec3f& wi, const Spectral& nm) const override {
     if (wo.z() <= 0.0f || wi.z() <= 0.0f) return {};
@@ -24,7 +26,8 @@ class CoatedDiffuse : public Bsdf {
   std::optional<BsdfSample> Sample(const Vec3f& wo, float lobe, const Vec2f& u,
                                    const Spectral& nm) const override {
     if (wo.z() <= 0.0f) return std::nullopt;
-    const Vec3f wi = lobe < SpecularShare(wo) ? coat_.SampleSpecular(wo, u) : SampleCosineHemisphere(u);
+    const Vec3f wi =
+        lobe < SpecularShare(wo) ? coat_.SampleSpecular(wo, u) : SampleCosineHemisphere(u);
     if (wi.z() <= 0.0f) return std::nullopt;
     const BsdfValue value = Evaluate(wo, wi, nm);
     return BsdfSample{wi, value.f_cos / value.pdf, value.pdf};

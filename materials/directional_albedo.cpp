@@ -16,12 +16,13 @@ float Integrate(float cosine, float ior, float alpha) {
   double sum = 0.0;
   for (int i = 0; i < kQuadrature; ++i) {
     for (int j = 0; j < kQuadrature; ++j) {
-      const Vec2f u((static_cast<float>(i) + 0.5f) / kQuadrature, (static_cast<float>(j) + 0.5f) / kQuadrature);
+      const Vec2f u((static_cast<float>(i) + 0.5f) / kQuadrature,
+                    (static_cast<float>(j) + 0.5f) / kQuadrature);
       const Vec3f h = ggx::SampleVisibleNormal(w, alpha, u);
       const Vec3f wi = ggx::Reflect(w, h);
       if (wi.z() <= 0.0f) continue;
-      sum += static_cast<double>(ggx::FresnelDielectric(w.dot(h), ior) * ggx::MaskingBoth(w, wi, alpha) /
-                                 ggx::MaskingOne(w, alpha));
+      sum += static_cast<double>(ggx::FresnelDielectric(w.dot(h), ior) *
+                                 ggx::MaskingBoth(w, wi, alpha) / ggx::MaskingOne(w, alpha));
     }
   }
   return static_cast<float>(sum / (kQuadrature * kQuadrature));

@@ -28,13 +28,17 @@ EntranceWeight::EntranceWeight() : table_(2, 1.0f) {}
 
 EntranceWeight EntranceWeight::FromTable(const std::filesystem::path& file) {
   const NumberTable points = ReadNumberTable(file);
-  if (points.columns != std::vector<std::string>{"entrance_deg", "weight"} || points.rows.size() < 2) {
-    throw InputError::At(file, "", JoinNames(points.columns), "entrance_deg,weight and two rows or more");
+  if (points.columns != std::vector<std::string>{"entrance_deg", "weight"} ||
+      points.rows.size() < 2) {
+    throw InputError::At(file, "", JoinNames(points.columns),
+                         "entrance_deg,weight and two rows or more");
   }
   for (size_t i = 0; i < points.rows.size(); ++i) {
-    const bool falls = i == 0 || (points.rows[i][0] > points.rows[i - 1][0] && points.rows[i][1] <= points.rows[i - 1][1]);
+    const bool falls = i == 0 || (points.rows[i][0] > points.rows[i - 1][0] &&
+                                  points.rows[i][1] <= points.rows[i - 1][1]);
     if (!falls || points.rows[i][1] <= 0.0) {
-      throw InputError::At(file, fmt::format("row {}", i + 1), fmt::format("weight {}", points.rows[i][1]),
+      throw InputError::At(file, fmt::format("row {}", i + 1),
+                           fmt::format("weight {}", points.rows[i][1]),
                            "ascending angles with positive weights that do not rise");
     }
   }

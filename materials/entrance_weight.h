@@ -7,9 +7,9 @@
 
 namespace retrolux {
 
-// w(beta), 1 at normal incidence. A table over the angle, interpolated with ln w linear in beta^2 (a
-// Gaussian between points) and continued so beyond its last point. Tabulated over the cosine, in which
-// beta^2 is nearly linear.
+// w(beta), 1 at normal incidence. A table over the angle, interpolated with ln w linear in beta^2
+// (a Gaussian between points) and continued so beyond its last point. Tabulated over the cosine, in
+// which beta^2 is nearly linear.
 class EntranceWeight {
  public:
   EntranceWeight();  // 1 at every angle

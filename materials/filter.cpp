@@ -19,13 +19,15 @@ double DichroicFilter::Transmission(double nm, double sin_theta) const {
 
 DichroicFilter ReadFilter(JsonReader json) {
   DichroicFilter filter;
-  filter.centre_nm = json.Number("centre_nm", kMinWavelength_nm, kMaxWavelength_nm, filter.centre_nm);
+  filter.centre_nm =
+      json.Number("centre_nm", kMinWavelength_nm, kMaxWavelength_nm, filter.centre_nm);
   filter.bandwidth_nm = json.Number("bandwidth_nm", 1.0, 1000.0, filter.bandwidth_nm);
   filter.peak_transmission = json.Number("peak_transmission", 0.01, 1.0, filter.peak_transmission);
   filter.optical_density = json.Number("optical_density", 1.0, 12.0, filter.optical_density);
   filter.effective_index = json.Number("effective_index", 1.1, 5.0, filter.effective_index);
   if (filter.peak_transmission <= std::pow(10.0, -filter.optical_density)) {
-    json.Fail(fmt::format("a peak of {} below the floor of optical density {}", filter.peak_transmission, filter.optical_density),
+    json.Fail(fmt::format("a peak of {} below the floor of optical density {}",
+                          filter.peak_transmission, filter.optical_density),
               "peak_transmission above 10^-optical_density");
   }
   json.Finish();

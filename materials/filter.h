@@ -5,10 +5,10 @@
 
 namespace retrolux {
 
-// Transmission over wavelength and angle of incidence. The band is a super-Gaussian of order 8 whose
-// half-maximum points lie `bandwidth_nm` apart, above a floor of 10^-optical_density. With the angle it
-// shifts to the blue, lambda(theta) = lambda_0 sqrt(1 - (sin theta / n_eff)^2), valid to about 30 degrees
-// (Smith, Modern Optical Engineering; ING filter pages).
+// Transmission over wavelength and angle of incidence. The band is a super-Gaussian of order 8
+// whose half-maximum points lie `bandwidth_nm` apart, above a floor of 10^-optical_density. With
+// the angle it shifts to the blue, lambda(theta) = lambda_0 sqrt(1 - (sin theta / n_eff)^2), valid
+// to about 30 degrees (Smith, Modern Optical Engineering; ING filter pages).
 struct DichroicFilter {
   double centre_nm = 880.0;
   double bandwidth_nm = 50.0;  // full width at half maximum

@@ -28,6 +28,8 @@ Material LibraryMaterial(const std::string& name) {
   return ReadMaterial(name, library.Child(name));
 }
 
-std::vector<std::string> LibraryMaterialNames() { return Library().Keys(); }
+std::vector<std::string> LibraryMaterialNames() {
+  return Library().Keys();
+}
 
 }  // namespace retrolux

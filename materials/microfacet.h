@@ -1,5 +1,5 @@
-// Isotropic GGX microfacets (Walter et al. 2007) and the Fresnel term. `alpha` is the GGX width; all
-// directions are local (z = normal) and above the surface.
+// Isotropic GGX microfacets (Walter et al. 2007) and the Fresnel term. `alpha` is the GGX width;
+// all directions are local (z = normal) and above the surface.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace retrolux::ggx {
 
-// Distribution of microfacet normals, 1/sr. The tangent comes from the horizontal components, so that
-// lobes far below a degree keep their digits in single precision.
+// Distribution of microfacet normals, 1/sr. The tangent comes from the horizontal components, so
+// that lobes far below a degree keep their digits in single precision.
 inline float Distribution(const Vec3f& h, float alpha) {
   if (h.z() <= 0.0f) return 0.0f;
   const float alpha2 = alpha * alpha;
@@ -23,15 +23,18 @@ inline float Lambda(const Vec3f& w, float alpha) {
   return 0.5f * (std::sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
 }
 
-inline float MaskingOne(const Vec3f& w, float alpha) { return 1.0f / (1.0f + Lambda(w, alpha)); }
+inline float MaskingOne(const Vec3f& w, float alpha) {
+  return 1.0f / (1.0f + Lambda(w, alpha));
+}
 
 // Height-correlated Smith masking and shadowing.
 inline float MaskingBoth(const Vec3f& a, const Vec3f& b, float alpha) {
   return 1.0f / (1.0f + Lambda(a, alpha) + Lambda(b, alpha));
 }
 
-// A microfacet normal among those visible from w (Heitz, JCGT 7(4), 2018). Reflecting w at it has the density
-// D(h) / (4 w.z (1 + Lambda(w))) over directions: the Jacobian 1/(4 w.h) cancels the cosine.
+// A microfacet normal among those visible from w (Heitz, JCGT 7(4), 2018). Reflecting w at it has
+// the density D(h) / (4 w.z (1 + Lambda(w))) over directions: the Jacobian 1/(4 w.h) cancels the
+// cosine.
 inline Vec3f SampleVisibleNormal(const Vec3f& w, float alpha, const Vec2f& u) {
   const Vec3f stretched = Vec3f(alpha * w.x(), alpha * w.y(), w.z()).normalized();
   const float length2 = stretched.x() * stretched.x() + stretched.y() * stretched.y();
@@ -49,7 +52,8 @@ inline Vec3f SampleVisibleNormal(const Vec3f& w, float alpha, const Vec2f& u) {
   return Vec3f(alpha * n.x(), alpha * n.y(), std::max(1e-7f, n.z())).normalized();
 }
 
-// Unpolarised Fresnel reflectance of a dielectric of index `ior` seen from air, at cos(incidence) > 0.
+// Unpolarised Fresnel reflectance of a dielectric of index `ior` seen from air, at cos(incidence) >
+// 0.
 inline float FresnelDielectric(float cosine, float ior) {
   const float g = std::sqrt(ior * ior - 1.0f + cosine * cosine);
   const float a = (g - cosine) / (g + cosine);
@@ -57,6 +61,8 @@ inline float FresnelDielectric(float cosine, float ior) {
   return 0.5f * a * a * (1.0f + b * b);
 }
 
-inline Vec3f Reflect(const Vec3f& w, const Vec3f& h) { return 2.0f * w.dot(h) * h - w; }
+inline Vec3f Reflect(const Vec3f& w, const Vec3f& h) {
+  return 2.0f * w.dot(h) * h - w;
+}
 
 }  // namespace retrolux::ggx

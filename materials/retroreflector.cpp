@@ -1,16 +1,18 @@
-// retroreflector: retro-reflective sheeting, the minimal retroreflective microfacet model (back vector;
-// Portsmouth, Raab, Belcour, Liu, JCGT 15(1), 2026) with several GGX lobes, a weight for the entrance
-// angle, and the cover: a rough dielectric coat over a diffuse body (materials/coat.h).
-//   lobes                [{"roughness": GGX width, "albedo": share reflected at normal incidence}, ...]
-//   entrance_weight      table of w over the entrance angle; none: 1 everywhere
+// retroreflector: retro-reflective sheeting, the minimal retroreflective microfacet model (back
+// vector; Portsmouth, Raab, Belcour, Liu, JCGT 15(1), 2026) with several GGX lobes, a weight for
+// the entrance angle, and the cover: a rough dielectric coat over a diffuse body
+// (materials/coat.h).
+//   lobes                [{"roughness": GGX width, "albedo": share reflected at normal incidence},
+//   ...] entrance_weight      table of w over the entrance angle; none: 1 everywhere
 //   diffuse_reflectance  of the body under the cover, number or table       default 0.27
 //   ior, cover_roughness of the cover; ior 1 means no cover                 default 1.5, 0.1
 //
 // With v' = (-v_x, -v_y, v_z), the view mirrored about the normal, a lobe is
 //   f = albedo sqrt(w(v) w(l)) D(b) G2(v', l) / (4 cos cos),   b = normalise(v' + l),
-// times what passes the cover at v and l relative to normal incidence (the albedos are measured with the cover on).
-// Exchanging v and l mirrors b about the normal, which changes neither D nor G2; the weight is symmetric:
-// the model is reciprocal. R_A = f cos cos: at normal incidence R_A(0) = sum of albedo / (4 pi alpha^2).
+// times what passes the cover at v and l relative to normal incidence (the albedos are measured
+// with the cover on). Exchanging v and l mirrors b about the normal, which changes neither D nor
+// G2; the weight is symmetric: the model is reciprocal. R_A = f cos cos: at normal incidence R_A(0)
+// = sum of albedo / (4 pi alpha^2).
 #include "core/sampling.h"
 #include "materials/bsdf_factory.h"
 #include "materials/coat.h"
@@ -24,13 +26,19 @@ struct Lobe {
   float alpha, albedo;
 };
 
-Vec3f MirroredAboutNormal(const Vec3f& w) { return {-w.x(), -w.y(), w.z()}; }
+Vec3f MirroredAboutNormal(const Vec3f& w) {
+  return {-w.x(), -w.y(), w.z()};
+}
 
 class Retroreflector : public Bsdf {
  public:
-  Retroreflector(std::vector<Lobe> lobes, EntranceWeight weight, Spectrum body, std::optional<Coat> cover)
-      : lobes_(std::move(lobes)), weight_(std::move(weight)), body_(std::move(body)),
-        body_share_(body_.Max()), cover_(std::move(cover)) {}
+  Retroreflector(std::vector<Lobe> lobes, EntranceWeight weight, Spectrum body,
+                 std::optional<Coat> cover)
+      : lobes_(std::move(lobes)),
+        weight_(std::move(weight)),
+        body_(std::move(body)),
+        body_share_(body_.Max()),
+        cover_(std::move(cover)) {}
 
   BsdfValue Evaluate(const Vec3f& wo, const Vec3f& wi, const Spectral& nm) const override {
     if (wo.z() <= 0.0f || wi.z() <= 0.0f) return {};
@@ -89,7 +97,8 @@ class Retroreflector : public Bsdf {
     const Vec3f mirrored = MirroredAboutNormal(wo);
     for (const Lobe& retro : lobes_) {
       rest -= shares.retro * retro.albedo;
-      if (rest < 0.0f) return ggx::Reflect(mirrored, ggx::SampleVisibleNormal(mirrored, retro.alpha, u));
+      if (rest < 0.0f)
+        return ggx::Reflect(mirrored, ggx::SampleVisibleNormal(mirrored, retro.alpha, u));
     }
     if (cover_ && rest < shares.cover) return cover_->SampleSpecular(wo, u);
     return SampleCosineHemisphere(u);
@@ -127,7 +136,8 @@ std::shared_ptr<const Bsdf> MakeRetroreflector(JsonReader& json) {
   const auto alpha = static_cast<float>(json.Number("cover_roughness", 0.001, 1.0, 0.1));
   std::optional<Coat> cover;
   if (ior > 1.0f) cover.emplace(ior, alpha);
-  // With E the coat's albedo and x = 1 - E: albedo x^2 / x0^2 + 1 - x + x body <= 1 for all angles if albedo / x0 + body <= 1.
+  // With E the coat's albedo and x = 1 - E: albedo x^2 / x0^2 + 1 - x + x body <= 1 for all angles
+  // if albedo / x0 + body <= 1.
   const float passes = cover ? 1.0f - cover->Albedo(Vec3f::UnitZ()) : 1.0f;
   float total = body.Max();
   for (const Lobe& lobe : lobes) total += lobe.albedo / passes;
@@ -135,7 +145,8 @@ std::shared_ptr<const Bsdf> MakeRetroreflector(JsonReader& json) {
     json.Fail(fmt::format("lobes and body that reflect {:.3f} of the light", total),
               "albedos and diffuse_reflectance that sum to at most 1");
   }
-  return std::make_shared<Retroreflector>(std::move(lobes), std::move(weight), std::move(body), std::move(cover));
+  return std::make_shared<Retroreflector>(std::move(lobes), std::move(weight), std::move(body),
+                                          std::move(cover));
 }
 
 }  // namespace retrolux

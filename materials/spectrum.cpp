@@ -17,7 +17,8 @@ Spectrum Spectrum::Constant(double value) {
 Spectrum Spectrum::FromPoints(const std::vector<std::pair<double, double>>& points) {
   RETROLUX_CHECK(!points.empty(), "a spectrum without points");
   return FromFunction([&](double nm) {
-    const auto above = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.first > nm; });
+    const auto above =
+        std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.first > nm; });
     if (above == points.begin()) return points.front().second;
     if (above == points.end()) return points.back().second;
     const auto below = above - 1;
@@ -43,7 +44,8 @@ Spectrum Spectrum::FromTable(const std::filesystem::path& file) {
 }
 
 double Spectrum::Integral() const {
-  if (samples_.empty()) return static_cast<double>(constant_) * (kMaxWavelength_nm - kMinWavelength_nm);
+  if (samples_.empty())
+    return static_cast<double>(constant_) * (kMaxWavelength_nm - kMinWavelength_nm);
   double sum = 0.0;
   for (const float sample : samples_) sum += static_cast<double>(sample);
   return sum - 0.5 * static_cast<double>(samples_.front() + samples_.back());
@@ -52,7 +54,8 @@ double Spectrum::Integral() const {
 Spectrum Spectrum::Normalised() const {
   const double integral = Integral();
   RETROLUX_CHECK(integral > 0.0, "integral {}", integral);
-  return FromFunction([&](double nm) { return static_cast<double>(At(static_cast<float>(nm))) / integral; });
+  return FromFunction(
+      [&](double nm) { return static_cast<double>(At(static_cast<float>(nm))) / integral; });
 }
 
 float Spectrum::Max() const {
@@ -71,13 +74,15 @@ Spectrum LedSpectrum(double peak_nm, double fwhm_nm) {
       .Normalised();
 }
 
-Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max, double fallback) {
+Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max,
+                      double fallback) {
   if (!json.Has(key)) return Spectrum::Constant(fallback);
   if (!json.Child(key).IsString()) return Spectrum::Constant(json.Number(key, min, max));
   const std::filesystem::path file = ReadTablePath(json, key);
   const Spectrum spectrum = Spectrum::FromTable(file);
   if (spectrum.Max() > static_cast<float>(max) || spectrum.Min() < static_cast<float>(min)) {
-    throw InputError::At(file, "", fmt::format("values from {} to {}", spectrum.Min(), spectrum.Max()),
+    throw InputError::At(file, "",
+                         fmt::format("values from {} to {}", spectrum.Min(), spectrum.Max()),
                          fmt::format("numbers from {} to {}", min, max));
   }
   return spectrum;
@@ -89,7 +94,8 @@ std::filesystem::path ReadTablePath(JsonReader& json, const std::string& key) {
   try {
     return DataPath(name);
   } catch (const InputError&) {
-    node.Fail(fmt::format("no table \"{}\"", name), "a table of the data folder, such as materials/data/fluorescent.csv");
+    node.Fail(fmt::format("no table \"{}\"", name),
+              "a table of the data folder, such as materials/data/fluorescent.csv");
   }
 }
 

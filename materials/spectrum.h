@@ -11,9 +11,9 @@
 
 namespace retrolux {
 
-// A path carries one wavelength for each distinct spectrum of light in the scene (all rings of one LED
-// type share one, the room light has another), each drawn from emission x filter x quantum efficiency
-// of its own light. All values along a path are arrays over them.
+// A path carries one wavelength for each distinct spectrum of light in the scene (all rings of one
+// LED type share one, the room light has another), each drawn from emission x filter x quantum
+// efficiency of its own light. All values along a path are arrays over them.
 inline constexpr int kMaxSpectra = 4;
 using Spectral = Eigen::Array<float, kMaxSpectra, 1>;
 
@@ -31,7 +31,8 @@ class Spectrum {
     Spectrum spectrum;
     spectrum.samples_.resize(kSamples);
     for (int i = 0; i < kSamples; ++i) {
-      spectrum.samples_[static_cast<size_t>(i)] = static_cast<float>(value_at_nm(kMinWavelength_nm + i));
+      spectrum.samples_[static_cast<size_t>(i)] =
+          static_cast<float>(value_at_nm(kMinWavelength_nm + i));
     }
     return spectrum;
   }
@@ -67,9 +68,10 @@ class Spectrum {
 // Emission of an LED as a Gaussian over wavelength, integral 1 (1/nm).
 Spectrum LedSpectrum(double peak_nm, double fwhm_nm);
 
-// A reflectance or efficiency as scenes give it: a number from `min` to `max`, or the name of a table
-// under the data folder ("materials/data/x.csv").
-Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max, double fallback);
+// A reflectance or efficiency as scenes give it: a number from `min` to `max`, or the name of a
+// table under the data folder ("materials/data/x.csv").
+Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, double max,
+                      double fallback);
 
 // The path of the data table that a key names; the error says where the key stands.
 std::filesystem::path ReadTablePath(JsonReader& json, const std::string& key);

@@ -11,10 +11,14 @@ namespace {
 
 constexpr int kCells = static_cast<int>(kMaxWavelength_nm - kMinWavelength_nm);  // of 1 nm
 
-double CellCentre(int cell) { return kMinWavelength_nm + cell + 0.5; }
+double CellCentre(int cell) {
+  return kMinWavelength_nm + cell + 0.5;
+}
 
 // Photons per joule.
-double PhotonsPerJoule(double nm) { return nm * 1e-9 / (kPlanck_J_s * kSpeedOfLight_m_s); }
+double PhotonsPerJoule(double nm) {
+  return nm * 1e-9 / (kPlanck_J_s * kSpeedOfLight_m_s);
+}
 
 }  // namespace
 
@@ -23,7 +27,8 @@ double GainDnPerElectron(const SensorSpec& sensor) {
   return ((1 << sensor.adc_bits) - 1 - sensor.offset_dn) / sensor.full_well_e;
 }
 
-CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spectrum>& spectra, double exposure_s)
+CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spectrum>& spectra,
+                               double exposure_s)
     : camera_(camera),
       exposure_s_(exposure_s),
       quantum_efficiency_(Spectrum::FromTable(DataPath(camera.sensor.quantum_efficiency))),
@@ -35,7 +40,8 @@ CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spect
       max_sin_theta_ = std::max(max_sin_theta_, std::sqrt(1.0 - cosine * cosine));
     }
   }
-  full_scale_e_ = ((1 << camera.sensor.adc_bits) - 1 - camera.sensor.offset_dn) / GainDnPerElectron(camera.sensor);
+  full_scale_e_ = ((1 << camera.sensor.adc_bits) - 1 - camera.sensor.offset_dn) /
+                  GainDnPerElectron(camera.sensor);
   for (const Spectrum& emission : spectra_) bands_.push_back(MakeBand(emission));
 }
 
@@ -49,8 +55,8 @@ double CameraResponse::GeometricFactor(double cos_theta) const {
   const double pixel_width_m = 1e-3 * lens.focal_length_mm / camera_.model.fx;
   const double pixel_height_m = 1e-3 * lens.focal_length_mm / camera_.model.fy;
   const double cos2 = cos_theta * cos_theta;
-  return kPi / (4.0 * lens.f_number * lens.f_number) * lens.transmission * pixel_width_m * pixel_height_m *
-         exposure_s_ * cos2 * cos2;
+  return kPi / (4.0 * lens.f_number * lens.f_number) * lens.transmission * pixel_width_m *
+         pixel_height_m * exposure_s_ * cos2 * cos2;
 }
 
 CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission) const {
@@ -58,7 +64,8 @@ CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission) const {
   std::vector<double> density(kCells);
   for (int i = 0; i < kCells; ++i) {
     const double nm = CellCentre(i);
-    const double envelope = std::max({FilterAt(nm, 0.0), FilterAt(nm, 0.5 * max_sin_theta_), FilterAt(nm, max_sin_theta_)});
+    const double envelope = std::max(
+        {FilterAt(nm, 0.0), FilterAt(nm, 0.5 * max_sin_theta_), FilterAt(nm, max_sin_theta_)});
     const auto f = static_cast<float>(nm);
     const double value = static_cast<double>(emission.At(f)) * envelope *
                          static_cast<double>(quantum_efficiency_.At(f)) * PhotonsPerJoule(nm);
@@ -73,7 +80,8 @@ CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission) const {
   for (int i = 0; i < kCells; ++i) {
     const double d = density[static_cast<size_t>(i)];
     const double emitted = static_cast<double>(emission.At(static_cast<float>(CellCentre(i))));
-    band.emission_over_density.push_back(static_cast<float>(d > 0.0 ? band.total * emitted / d : 0.0));
+    band.emission_over_density.push_back(
+        static_cast<float>(d > 0.0 ? band.total * emitted / d : 0.0));
   }
   return band;
 }
@@ -82,7 +90,8 @@ Spectral CameraResponse::SampleWavelengths(float u) const {
   Spectral nm = Spectral::Constant(static_cast<float>(kMinWavelength_nm));
   for (size_t k = 0; k < bands_.size(); ++k) {
     const std::vector<float>& cumulative = bands_[k].cumulative;
-    const auto cell = std::min<ptrdiff_t>(std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin(), kCells - 1);
+    const auto cell = std::min<ptrdiff_t>(
+        std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin(), kCells - 1);
     nm[static_cast<Eigen::Index>(k)] = static_cast<float>(CellCentre(static_cast<int>(cell)));
   }
   return nm;
@@ -99,10 +108,12 @@ CameraResponse::Weights CameraResponse::WeightsAt(const Spectral& nm, float cos_
     const auto lambda = static_cast<double>(nm[i]);
     const auto cell = static_cast<size_t>(lambda - kMinWavelength_nm);
     const double transmission = FilterAt(lambda, sin_theta);
-    const auto per_density = static_cast<double>(bands_[k].emission_over_density[cell]) * transmission;  // S T / p
+    const auto per_density =
+        static_cast<double>(bands_[k].emission_over_density[cell]) * transmission;  // S T / p
     weights.in_band[i] = static_cast<float>(per_density / peak);
     weights.electrons[i] = static_cast<float>(geometry * per_density *
-                                              static_cast<double>(quantum_efficiency_.At(nm[i])) * PhotonsPerJoule(lambda));
+                                              static_cast<double>(quantum_efficiency_.At(nm[i])) *
+                                              PhotonsPerJoule(lambda));
   }
   return weights;
 }
@@ -113,7 +124,8 @@ double CameraResponse::ExpectedElectrons(int spectrum, double cos_theta) const {
   for (int i = 0; i < kCells; ++i) {
     const double nm = CellCentre(i);
     const auto f = static_cast<float>(nm);
-    sum += static_cast<double>(spectra_[static_cast<size_t>(spectrum)].At(f) * quantum_efficiency_.At(f)) *
+    sum += static_cast<double>(spectra_[static_cast<size_t>(spectrum)].At(f) *
+                               quantum_efficiency_.At(f)) *
            FilterAt(nm, sin_theta) * PhotonsPerJoule(nm);
   }
   return GeometricFactor(cos_theta) * sum;

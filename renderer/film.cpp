@@ -32,8 +32,8 @@ void Film::Set(int x, int y, const PixelEstimate& estimate) {
   }
 }
 
-Film RenderFilm(const PathTracer& tracer, const CameraModel& camera, std::vector<std::string> group_names,
-                Progress& progress) {
+Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
+                std::vector<std::string> group_names, Progress& progress) {
   constexpr int kTile = 16;
   Film film(camera.width, camera.height, std::move(group_names));
   const int columns = (camera.width + kTile - 1) / kTile;

@@ -22,7 +22,7 @@ struct Film {
 };
 
 // Every pixel, on all threads, in tiles; `progress` counts pixels.
-Film RenderFilm(const PathTracer& tracer, const CameraModel& camera, std::vector<std::string> group_names,
-                Progress& progress);
+Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
+                std::vector<std::string> group_names, Progress& progress);
 
 }  // namespace retrolux

@@ -9,7 +9,8 @@ namespace {
 uint32_t MarkerAt(const std::vector<PlacedMarker>& markers, const SurfaceHit& hit) {
   for (const PlacedMarker& marker : markers) {
     if (marker.object != hit.body) continue;
-    const auto place = marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
+    const auto place =
+        marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
     if (place && marker.IsBright(*place)) return marker.instance;
   }
   return 0;
@@ -17,13 +18,20 @@ uint32_t MarkerAt(const std::vector<PlacedMarker>& markers, const SurfaceHit& hi
 
 }  // namespace
 
-IdBuffers RenderIds(const RayScene& rays, const CameraModel& camera, const std::vector<PlacedMarker>& markers) {
+IdBuffers RenderIds(const RayScene& rays, const CameraModel& camera,
+                    const std::vector<PlacedMarker>& markers) {
   const int width = camera.width, height = camera.height;
-  IdBuffers ids{IdPlane(width, height), IdPlane(width, height), IdPlane(width, height), FloatPlane(width, height), {}, {}};
+  IdBuffers ids{IdPlane(width, height),
+                IdPlane(width, height),
+                IdPlane(width, height),
+                FloatPlane(width, height),
+                {},
+                {}};
   ids.position.fill(FloatPlane(width, height));
   ids.normal.fill(FloatPlane(width, height));
   const Vec3f origin = camera.Centre().cast<float>();
-  const Eigen::Matrix3f world_from_camera = camera.camera_from_world.rotation.transpose().cast<float>();
+  const Eigen::Matrix3f world_from_camera =
+      camera.camera_from_world.rotation.transpose().cast<float>();
   ParallelFor(height, [&](int64_t row) {
     const int y = static_cast<int>(row);
     std::vector<Vec3f> directions(static_cast<size_t>(width));

@@ -11,15 +11,18 @@ namespace {
 constexpr float kSquareMetrePerSquareMm = 1e-6f;
 
 // Density over area (1/mm2) to density over directions (1/sr).
-float SolidAnglePdf(float area_pdf, float distance2, float cosine) { return area_pdf * distance2 / cosine; }
+float SolidAnglePdf(float area_pdf, float distance2, float cosine) {
+  return area_pdf * distance2 / cosine;
+}
 
 }  // namespace
 
-// Intensity I0 cos^m over a disc of area A: radiance I0 cos^(m-1) / A. The disc is small, so that its intensity
-// is that of the LED.
+// Intensity I0 cos^m over a disc of area A: radiance I0 cos^(m-1) / A. The disc is small, so that
+// its intensity is that of the LED.
 float Lights::Ring::RadianceAt(float cos_theta) const {
   if (cos_theta <= 0.0f) return 0.0f;
-  return intensity * std::pow(cos_theta, exponent - 1.0f) / (led_area_mm2 * kSquareMetrePerSquareMm);
+  return intensity * std::pow(cos_theta, exponent - 1.0f) /
+         (led_area_mm2 * kSquareMetrePerSquareMm);
 }
 
 int Lights::SpectrumIndex(double peak_nm, double fwhm_nm) {
@@ -32,7 +35,8 @@ int Lights::SpectrumIndex(double peak_nm, double fwhm_nm) {
   return static_cast<int>(spectra_.size()) - 1;
 }
 
-Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice, const std::string& own_camera)
+Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice,
+               const std::string& own_camera)
     : panels_(scene.ambient.panels) {
   uint32_t body = rays.ObjectCount();
   group_of_body_.assign(rays.BodyNames().size(), -1);
@@ -53,7 +57,8 @@ Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice, cons
     ring.intensity = static_cast<float>(spec.radiant_intensity_w_sr);
     ring.exponent = static_cast<float>(spec.LambertExponent());
     group_of_body_[ring_body] = GroupCount();
-    groups_.push_back({camera.model.name, Kind::kRing, SpectrumIndex(spec.peak_nm, spec.fwhm_nm), ring_body});
+    groups_.push_back(
+        {camera.model.name, Kind::kRing, SpectrumIndex(spec.peak_nm, spec.fwhm_nm), ring_body});
     rings_.push_back(std::move(ring));
   }
   spectra_.push_back(Spectrum::FromTable(DataPath(scene.ambient.spectrum)).Normalised());
@@ -64,12 +69,14 @@ Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice, cons
     group_of_body_[body] = GroupCount();
     groups_.push_back({kAmbientGroup, Kind::kPanels, ambient, body});
     double area = 0.0;
-    for (const LightPanel& panel : panels_) panel_areas_cumulative_.push_back(area += panel.edge_u.cross(panel.edge_v).norm());
+    for (const LightPanel& panel : panels_)
+      panel_areas_cumulative_.push_back(area += panel.edge_u.cross(panel.edge_v).norm());
   } else if (environment_radiance_ > 0.0f) {
     groups_.push_back({kAmbientGroup, Kind::kEnvironment, ambient, body});
   }  // panels and environment together are one group
   if (GroupCount() > kMaxLightGroups) {
-    throw InputError(fmt::format("{} light groups; expected at most {}", GroupCount(), kMaxLightGroups));
+    throw InputError(
+        fmt::format("{} light groups; expected at most {}", GroupCount(), kMaxLightGroups));
   }
 }
 
@@ -79,18 +86,24 @@ std::vector<std::string> Lights::GroupNames() const {
   return names;
 }
 
-std::optional<LightSample> Lights::Sample(int group, const Vec3f& x, float pick, const Vec2f& u) const {
+std::optional<LightSample> Lights::Sample(int group, const Vec3f& x, float pick,
+                                          const Vec2f& u) const {
   switch (groups_[static_cast<size_t>(group)].kind) {
-    case Kind::kRing: return SampleRing(rings_[static_cast<size_t>(group)], x, pick, u);
-    case Kind::kPanels: return SamplePanels(x, pick, u);
-    case Kind::kEnvironment: return std::nullopt;
+    case Kind::kRing:
+      return SampleRing(rings_[static_cast<size_t>(group)], x, pick, u);
+    case Kind::kPanels:
+      return SamplePanels(x, pick, u);
+    case Kind::kEnvironment:
+      return std::nullopt;
   }
   return std::nullopt;
 }
 
-std::optional<LightSample> Lights::SampleRing(const Ring& ring, const Vec3f& x, float pick, const Vec2f& u) const {
+std::optional<LightSample> Lights::SampleRing(const Ring& ring, const Vec3f& x, float pick,
+                                              const Vec2f& u) const {
   // `pick` chooses the LED, u the triangle and the place in it: all triangles have the same area.
-  const size_t led = std::min(static_cast<size_t>(pick * static_cast<float>(ring.centres.size())), ring.centres.size() - 1);
+  const size_t led = std::min(static_cast<size_t>(pick * static_cast<float>(ring.centres.size())),
+                              ring.centres.size() - 1);
   const float along = u.x() * kLedCorners;
   const size_t corner = std::min(static_cast<size_t>(along), ring.outlines[led].size() - 1);
   const float root = std::sqrt(u.y());
@@ -111,7 +124,8 @@ std::optional<LightSample> Lights::SampleRing(const Ring& ring, const Vec3f& x, 
 }
 
 float Lights::RingPdf(const Ring& ring, float distance2, float cos_led) {
-  return SolidAnglePdf(1.0f / (static_cast<float>(ring.centres.size()) * ring.led_area_mm2), distance2, cos_led);
+  return SolidAnglePdf(1.0f / (static_cast<float>(ring.centres.size()) * ring.led_area_mm2),
+                       distance2, cos_led);
 }
 
 std::optional<LightSample> Lights::SamplePanels(const Vec3f& x, float pick, const Vec2f& u) const {
@@ -121,10 +135,12 @@ std::optional<LightSample> Lights::SamplePanels(const Vec3f& x, float pick, cons
   const LightPanel& panel = panels_[index];
   LightSample sample;
   sample.position = (panel.corner + static_cast<double>(u.x()) * panel.edge_u +
-                     static_cast<double>(u.y()) * panel.edge_v).cast<float>();
+                     static_cast<double>(u.y()) * panel.edge_v)
+                        .cast<float>();
   const Vec3f offset = sample.position - x;
   sample.direction = offset.normalized();
-  const float cos_panel = -sample.direction.dot(panel.edge_u.cross(panel.edge_v).normalized().cast<float>());
+  const float cos_panel =
+      -sample.direction.dot(panel.edge_u.cross(panel.edge_v).normalized().cast<float>());
   if (cos_panel <= 0.0f) return std::nullopt;
   sample.radiance = panel_radiance_;
   sample.pdf = PanelPdf(x, sample.position, cos_panel);
@@ -132,7 +148,8 @@ std::optional<LightSample> Lights::SamplePanels(const Vec3f& x, float pick, cons
 }
 
 float Lights::PanelPdf(const Vec3f& x, const Vec3f& position, float cos_panel) const {
-  return SolidAnglePdf(1.0f / static_cast<float>(panel_areas_cumulative_.back()), (position - x).squaredNorm(), cos_panel);
+  return SolidAnglePdf(1.0f / static_cast<float>(panel_areas_cumulative_.back()),
+                       (position - x).squaredNorm(), cos_panel);
 }
 
 std::optional<Lights::Emission> Lights::Emitted(const Vec3f& origin, const Vec3f& direction,
@@ -143,10 +160,12 @@ std::optional<Lights::Emission> Lights::Emitted(const Vec3f& origin, const Vec3f
     const Ring& ring = rings_[static_cast<size_t>(group)];
     const float cos_led = -direction.dot(ring.axis);
     if (cos_led <= 0.0f) return std::nullopt;
-    return Emission{group, ring.RadianceAt(cos_led), RingPdf(ring, (hit.position - origin).squaredNorm(), cos_led)};
+    return Emission{group, ring.RadianceAt(cos_led),
+                    RingPdf(ring, (hit.position - origin).squaredNorm(), cos_led)};
   }
   const LightPanel& panel = panels_[hit.primitive / 2];
-  const float cos_panel = -direction.dot(panel.edge_u.cross(panel.edge_v).normalized().cast<float>());
+  const float cos_panel =
+      -direction.dot(panel.edge_u.cross(panel.edge_v).normalized().cast<float>());
   if (cos_panel <= 0.0f) return std::nullopt;
   return Emission{group, panel_radiance_, PanelPdf(origin, hit.position, cos_panel)};
 }

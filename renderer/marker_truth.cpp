@@ -6,26 +6,31 @@ namespace retrolux {
 
 namespace {
 
-constexpr int kGrid = 24;            // points an axis over the square
+constexpr int kGrid = 24;             // points an axis over the square
 constexpr double kOutlineStep = 0.5;  // mm
 
 // The surface point above or below a place in the marker's square.
-std::optional<SurfaceHit> OntoSurface(const RayScene& rays, const PlacedMarker& marker, const Vec2d& x_in_marker) {
+std::optional<SurfaceHit> OntoSurface(const RayScene& rays, const PlacedMarker& marker,
+                                      const Vec2d& x_in_marker) {
   const double reach = 2.0 * marker.half_size_mm;
-  const Vec3d start = marker.marker_from_world.Inverse() * Vec3d(x_in_marker.x(), x_in_marker.y(), reach);
-  const auto hit = rays.Intersect(start.cast<float>(), (-marker.NormalInWorld()).cast<float>(), static_cast<float>(2.0 * reach));
+  const Vec3d start =
+      marker.marker_from_world.Inverse() * Vec3d(x_in_marker.x(), x_in_marker.y(), reach);
+  const auto hit = rays.Intersect(start.cast<float>(), (-marker.NormalInWorld()).cast<float>(),
+                                  static_cast<float>(2.0 * reach));
   return hit && hit->body == marker.object ? hit : std::nullopt;
 }
 
-std::vector<Vec3d> OutlineOnSurface(const RayScene& rays, const PlacedMarker& marker, const Polygon& outline,
-                                    double step) {
+std::vector<Vec3d> OutlineOnSurface(const RayScene& rays, const PlacedMarker& marker,
+                                    const Polygon& outline, double step) {
   std::vector<Vec3d> points;
   for (size_t i = 0; i < outline.size(); ++i) {
     const Vec2d a = outline[i], b = outline[(i + 1) % outline.size()];
-    const int pieces = step > 0.0 ? std::max(1, static_cast<int>(std::ceil((b - a).norm() / step))) : 1;
+    const int pieces =
+        step > 0.0 ? std::max(1, static_cast<int>(std::ceil((b - a).norm() / step))) : 1;
     for (int k = 0; k < pieces; ++k) {
       const Vec2d place = a + (b - a) * k / pieces;
-      if (const auto hit = OntoSurface(rays, marker, place)) points.push_back(hit->position.cast<double>());
+      if (const auto hit = OntoSurface(rays, marker, place))
+        points.push_back(hit->position.cast<double>());
     }
   }
   return points;
@@ -40,7 +45,8 @@ MarkerSurface SampleMarkerSurface(const RayScene& rays, const PlacedMarker& mark
   surface.corners = OutlineOnSurface(rays, marker, marker.shape->outline_mm, 0.0);
   surface.outline = OutlineOnSurface(rays, marker, marker.shape->outline_mm, kOutlineStep);
   const double s = marker.half_size_mm;
-  surface.square = OutlineOnSurface(rays, marker, {{-s, -s}, {s, -s}, {s, s}, {-s, s}}, kOutlineStep);
+  surface.square =
+      OutlineOnSurface(rays, marker, {{-s, -s}, {s, -s}, {s, s}, {-s, s}}, kOutlineStep);
   const double cell = 2.0 * s / kGrid;
   for (int i = 0; i < kGrid; ++i) {
     for (int j = 0; j < kGrid; ++j) {
@@ -49,7 +55,8 @@ MarkerSurface SampleMarkerSurface(const RayScene& rays, const PlacedMarker& mark
       const auto hit = OntoSurface(rays, marker, place);
       if (!hit) continue;
       const Vec3d normal = hit->geometric_normal.cast<double>();
-      surface.points.push_back({hit->position.cast<double>(), normal, cell * cell / normal.dot(surface.normal)});
+      surface.points.push_back(
+          {hit->position.cast<double>(), normal, cell * cell / normal.dot(surface.normal)});
     }
   }
   return surface;
@@ -65,7 +72,8 @@ Polygon ProjectAll(const CameraModel& camera, const std::vector<Vec3d>& points) 
   return projected;
 }
 
-void MeasureVisibility(const MarkerSurface& surface, const RayScene& rays, const CameraModel& camera, MarkerView& view) {
+void MeasureVisibility(const MarkerSurface& surface, const RayScene& rays,
+                       const CameraModel& camera, MarkerView& view) {
   const Vec3d eye = camera.Centre();
   double total = 0.0, visible = 0.0, in_frame = 0.0, facing = 0.0;
   for (const MarkerSurface::Point& point : surface.points) {
@@ -87,11 +95,13 @@ void MeasureVisibility(const MarkerSurface& surface, const RayScene& rays, const
 
 }  // namespace
 
-MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays, const CameraModel& camera) {
+MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays,
+                      const CameraModel& camera) {
   MarkerView view;
   const Vec3d to_camera = camera.Centre() - surface.centre;
   view.distance_mm = to_camera.norm();
-  view.incidence_deg = DegFromRad(std::acos(std::clamp(surface.normal.dot(to_camera) / view.distance_mm, -1.0, 1.0)));
+  view.incidence_deg = DegFromRad(
+      std::acos(std::clamp(surface.normal.dot(to_camera) / view.distance_mm, -1.0, 1.0)));
   view.corners_px = ProjectAll(camera, surface.corners);
   view.outline_px = ProjectAll(camera, surface.outline);
   view.centroid_projected_px = camera.Project(surface.centre);

@@ -1,4 +1,5 @@
-// What is true of a marker in a picture, by geometry and from the noiseless film; never seen by the classifier.
+// What is true of a marker in a picture, by geometry and from the noiseless film; never seen by the
+// classifier.
 #pragma once
 
 #include "renderer/film.h"
@@ -6,7 +7,8 @@
 
 namespace retrolux {
 
-// Points of a marker's bright part on the real surface, for visibility and outline; independent of the camera.
+// Points of a marker's bright part on the real surface, for visibility and outline; independent of
+// the camera.
 struct MarkerSurface {
   struct Point {
     Vec3d position, normal;  // world
@@ -22,19 +24,22 @@ MarkerSurface SampleMarkerSurface(const RayScene& rays, const PlacedMarker& mark
 
 // How a camera sees it.
 struct MarkerView {
-  double visible_fraction = 0.0;  // of the bright surface: in the frame, facing the camera, nothing in between
+  double visible_fraction =
+      0.0;  // of the bright surface: in the frame, facing the camera, nothing in between
   double in_frame_fraction = 0.0;
   double facing_fraction = 0.0;
-  double incidence_deg = 0.0;     // between the normal at the centre and the direction to the camera
-  double distance_mm = 0.0;       // of the centre from the camera
-  bool in_frame = false;          // the whole outline
+  double incidence_deg = 0.0;  // between the normal at the centre and the direction to the camera
+  double distance_mm = 0.0;    // of the centre from the camera
+  bool in_frame = false;       // the whole outline
   std::vector<Vec2d> corners_px;
   Polygon outline_px;
-  std::optional<Vec2d> centroid_projected_px;    // of the marker's origin
-  std::optional<Vec2d> centroid_outline_px;      // of the area of the projected outline
-  std::optional<Vec2d> centroid_radiometric_px;  // of the light that the marker sends, where a film is given
+  std::optional<Vec2d> centroid_projected_px;  // of the marker's origin
+  std::optional<Vec2d> centroid_outline_px;    // of the area of the projected outline
+  std::optional<Vec2d>
+      centroid_radiometric_px;  // of the light that the marker sends, where a film is given
 };
-MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays, const CameraModel& camera);
+MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays,
+                      const CameraModel& camera);
 
 // The centroid of the light that reaches the sensor from marker `instance`; nothing if none does.
 std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance);

@@ -14,8 +14,9 @@ struct PathTracer::Vertex {
   uint32_t marker = 0;
 };
 
-PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& lights, const CameraResponse& response,
-                       const std::vector<PlacedMarker>& markers, const TraceOptions& options)
+PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& lights,
+                       const CameraResponse& response, const std::vector<PlacedMarker>& markers,
+                       const TraceOptions& options)
     : scene_(scene),
       rays_(rays),
       lights_(lights),
@@ -24,18 +25,22 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& l
       options_(options),
       image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))),
       camera_centre_(response.Camera().model.Centre().cast<float>()) {
-  for (const SceneObject& object : scene_.objects) bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
+  for (const SceneObject& object : scene_.objects)
+    bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
 }
 
 PathTracer::Vertex PathTracer::MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const {
-  // Near the limb the interpolated normal may face away from the ray; the triangle's own never does.
+  // Near the limb the interpolated normal may face away from the ray; the triangle's own never
+  // does.
   const bool smooth = hit.shading_normal.dot(direction) < 0.0f;
   const Vec3f& normal = smooth ? hit.shading_normal : hit.geometric_normal;
-  Vertex vertex{hit.position, hit.geometric_normal, Frame(normal), Vec3f::Zero(), bsdf_of_object_[hit.body], 0};
+  Vertex vertex{hit.position,  hit.geometric_normal,      Frame(normal),
+                Vec3f::Zero(), bsdf_of_object_[hit.body], 0};
   vertex.wo = vertex.frame.LocalFromWorld(-direction);
   for (const PlacedMarker& marker : markers_) {
     if (marker.object != hit.body) continue;
-    const std::optional<Vec2d> place = marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
+    const std::optional<Vec2d> place =
+        marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
     if (!place || !marker.IsBright(*place)) continue;
     vertex.bsdf = marker.bright.get();
     vertex.marker = marker.instance;
@@ -44,8 +49,8 @@ PathTracer::Vertex PathTracer::MakeVertex(const Vec3f& direction, const SurfaceH
   return vertex;
 }
 
-void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm, bool every_group,
-                           PixelSampler& sampler, GroupValues& radiance) const {
+void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
+                           bool every_group, PixelSampler& sampler, GroupValues& radiance) const {
   const float pick = sampler.Next1D();
   const Vec2f u = sampler.Next2D();
   const float choice = sampler.Next1D();
@@ -64,7 +69,8 @@ void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, con
   }
   if (every_group) {
     for (int group = 0; group < lights_.GroupCount(); ++group) {
-      if (unshadowed[group] > 0.0f && !rays_.Occluded(origin, targets[static_cast<size_t>(group)])) {
+      if (unshadowed[group] > 0.0f &&
+          !rays_.Occluded(origin, targets[static_cast<size_t>(group)])) {
         radiance[group] += unshadowed[group];
       }
     }
@@ -89,7 +95,8 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
   float pdf = 0.0f;  // of the direction by the last BSDF; 0 for the camera's ray
   const auto add_emission = [&](const Lights::Emission& emission) {
     const float share = pdf > 0.0f ? BalanceHeuristic(pdf, emission.pdf) : 1.0f;
-    path.radiance[emission.group] += throughput[lights_.SpectrumOf(emission.group)] * emission.radiance * share;
+    path.radiance[emission.group] +=
+        throughput[lights_.SpectrumOf(emission.group)] * emission.radiance * share;
   };
   for (int surface = 0;; ++surface) {
     const std::optional<SurfaceHit> hit = rays_.Intersect(origin, direction);
@@ -108,7 +115,8 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
     AddDirect(vertex, throughput, nm, every_group, sampler, path.radiance);
 
     const float lobe = sampler.Next1D();
-    const std::optional<BsdfSample> next = vertex.bsdf->Sample(vertex.wo, lobe, sampler.Next2D(), nm);
+    const std::optional<BsdfSample> next =
+        vertex.bsdf->Sample(vertex.wo, lobe, sampler.Next2D(), nm);
     if (!next) break;
     direction = vertex.frame.WorldFromLocal(next->wi);
     if (direction.dot(vertex.geometric_normal) <= 0.0f) break;
@@ -140,9 +148,10 @@ class CoverageSum {
   }
 
   MarkerCoverage Ranked(float samples) {
-    std::sort(entries_.begin(), entries_.begin() + static_cast<ptrdiff_t>(count_), [](const Entry& a, const Entry& b) {
-      return a.samples != b.samples ? a.samples > b.samples : a.marker < b.marker;
-    });
+    std::sort(entries_.begin(), entries_.begin() + static_cast<ptrdiff_t>(count_),
+              [](const Entry& a, const Entry& b) {
+                return a.samples != b.samples ? a.samples > b.samples : a.marker < b.marker;
+              });
     MarkerCoverage coverage;
     for (size_t i = 0; i < std::min<size_t>(3, count_); ++i) {
       coverage.instance[i] = entries_[i].marker;
@@ -165,7 +174,8 @@ class CoverageSum {
 
 PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
   const CameraModel& camera = response_.Camera().model;
-  const uint64_t pixel_key = CombineKeys(image_key_, static_cast<uint64_t>(y) << 32 | static_cast<uint64_t>(x));
+  const uint64_t pixel_key =
+      CombineKeys(image_key_, static_cast<uint64_t>(y) << 32 | static_cast<uint64_t>(x));
   const Vec3d forward = camera.Forward();
   Eigen::Array<double, kMaxLightGroups, 1> sums = Eigen::Array<double, kMaxLightGroups, 1>::Zero();
   double sum = 0.0, sum2 = 0.0, radiance = 0.0;
@@ -176,7 +186,8 @@ PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
     const Ray ray = camera.RayThrough(Vec2d(x, y) + in_pixel.cast<double>() - Vec2d(0.5, 0.5));
     const Spectral nm = response_.SampleWavelengths(sampler.Next1D());
     const PathSample path = TracePath(camera_centre_, ray.direction.cast<float>(), nm, sampler);
-    const CameraResponse::Weights weights = response_.WeightsAt(nm, static_cast<float>(ray.direction.dot(forward)));
+    const CameraResponse::Weights weights =
+        response_.WeightsAt(nm, static_cast<float>(ray.direction.dot(forward)));
     double total = 0.0;
     for (int group = 0; group < lights_.GroupCount(); ++group) {
       const int k = lights_.SpectrumOf(group);
@@ -192,7 +203,8 @@ PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
   const double n = options_.samples_per_pixel;
   PixelEstimate estimate;
   estimate.electrons = (sums / n).cast<float>();
-  if (n > 1.0) estimate.variance = static_cast<float>(std::max(0.0, (sum2 - sum * sum / n) / (n * (n - 1.0))));
+  if (n > 1.0)
+    estimate.variance = static_cast<float>(std::max(0.0, (sum2 - sum * sum / n) / (n * (n - 1.0))));
   estimate.radiance = static_cast<float>(radiance / n);
   estimate.coverage = coverage.Ranked(static_cast<float>(n));
   return estimate;

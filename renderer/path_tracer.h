@@ -1,5 +1,5 @@
-// Spectral unidirectional path tracing with next-event estimation and multiple importance sampling, for the
-// pixels of one camera.
+// Spectral unidirectional path tracing with next-event estimation and multiple importance sampling,
+// for the pixels of one camera.
 #pragma once
 
 #include "core/sampler.h"
@@ -11,15 +11,16 @@ namespace retrolux {
 struct TraceOptions {
   int samples_per_pixel = 64;
   uint64_t seed = 1;
-  // How direct light is gathered at the first surface of a path. kEveryGroup: a shadow ray to each light group,
-  // so that each group is as clean as it can be. kOneOfAll: one shadow ray, its group drawn in proportion to the
-  // unshadowed contributions; the sum is as clean where nothing is shadowed, at a fraction of the rays, but the
-  // groups one by one are noisier. Both are unbiased. Further surfaces use kOneOfAll always.
+  // How direct light is gathered at the first surface of a path. kEveryGroup: a shadow ray to each
+  // light group, so that each group is as clean as it can be. kOneOfAll: one shadow ray, its group
+  // drawn in proportion to the unshadowed contributions; the sum is as clean where nothing is
+  // shadowed, at a fraction of the rays, but the groups one by one are noisier. Both are unbiased.
+  // Further surfaces use kOneOfAll always.
   enum class Direct { kEveryGroup, kOneOfAll };
   Direct direct = Direct::kEveryGroup;
   int max_surfaces = 6;  // that scatter, of a path
-  // Chance of a path to go on, for each unit of the throughput that it carries (at most 0.95). Lower is faster, and noisier
-  // in the indirect light only.
+  // Chance of a path to go on, for each unit of the throughput that it carries (at most 0.95).
+  // Lower is faster, and noisier in the indirect light only.
   float roulette = 1.0f;
 };
 
@@ -27,14 +28,15 @@ struct TraceOptions {
 struct MarkerCoverage {
   std::array<uint32_t, 3> instance{};
   std::array<float, 3> weight{};
-  // Mean electrons of the samples that show the ranked marker, times its weight: what the marker contributes.
+  // Mean electrons of the samples that show the ranked marker, times its weight: what the marker
+  // contributes.
   std::array<float, 3> electrons{};
 };
 
 struct PixelEstimate {
   GroupValues electrons = GroupValues::Zero();  // noiseless mean signal by light group
-  float variance = 0.0f;  // of the mean of the sum, from the scatter of the samples (an upper bound: the
-                          // points are better spread than independent ones)
+  float variance = 0.0f;  // of the mean of the sum, from the scatter of the samples (an upper
+                          // bound: the points are better spread than independent ones)
   float radiance = 0.0f;  // in band, W/(m2 sr)
   MarkerCoverage coverage;
 };
@@ -42,24 +44,27 @@ struct PixelEstimate {
 class PathTracer {
  public:
   // All references must outlive the tracer. `markers` may change between estimates, not during one.
-  PathTracer(const Scene& scene, const RayScene& rays, const Lights& lights, const CameraResponse& response,
-             const std::vector<PlacedMarker>& markers, const TraceOptions& options);
+  PathTracer(const Scene& scene, const RayScene& rays, const Lights& lights,
+             const CameraResponse& response, const std::vector<PlacedMarker>& markers,
+             const TraceOptions& options);
 
   // The pixel's box of one by one px. Depends on nothing but the scene, the seed and (x, y).
   PixelEstimate EstimatePixel(int x, int y) const;
 
-  // Band radiance by light group along a ray, one sample, with the marker that it meets first (0: none).
+  // Band radiance by light group along a ray, one sample, with the marker that it meets first (0:
+  // none).
   struct PathSample {
     GroupValues radiance = GroupValues::Zero();
     uint32_t marker = 0;
   };
-  PathSample TracePath(Vec3f origin, Vec3f direction, const Spectral& nm, PixelSampler& sampler) const;
+  PathSample TracePath(Vec3f origin, Vec3f direction, const Spectral& nm,
+                       PixelSampler& sampler) const;
 
  private:
   struct Vertex;
   Vertex MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const;
-  void AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm, bool every_group,
-                 PixelSampler& sampler, GroupValues& radiance) const;
+  void AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
+                 bool every_group, PixelSampler& sampler, GroupValues& radiance) const;
 
   const Scene& scene_;
   const RayScene& rays_;

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "core/parallel.h"
+
 namespace retrolux {
 
 namespace {
@@ -39,10 +41,11 @@ struct RayScene::Impl {
   std::vector<Body> bodies;
 
   Impl() {
-    device = rtcNewDevice("threads=1,set_affinity=0");
+    device = rtcNewDevice(nullptr);
     rtcSetDeviceErrorFunction(device, OnEmbreeError, nullptr);
     tree = rtcNewScene(device);
-    // Without it one ray in 10^5 slips between two triangles, and every 25th of those aimed at an edge.
+    // Without it one ray in 10^5 slips between two triangles, and every 25th of those aimed at an
+    // edge.
     rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
     wide_packets = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   }
@@ -53,17 +56,20 @@ struct RayScene::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void AddTriangles(const std::string& name, const TriangleMesh& mesh, const RigidTransform& world_from_object) {
+  void AddTriangles(const std::string& name, const TriangleMesh& mesh,
+                    const RigidTransform& world_from_object) {
     Body body{name, {}, mesh.triangles, {}};
-    for (const Vec3f& p : mesh.positions) body.positions.push_back((world_from_object * p.cast<double>()).cast<float>());
+    for (const Vec3f& p : mesh.positions)
+      body.positions.push_back((world_from_object * p.cast<double>()).cast<float>());
     for (const Vec3f& n : mesh.normals) {
       body.normals.push_back((world_from_object.rotation * n.cast<double>()).cast<float>());
     }
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = NewBuffer<Vec3f>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, body.positions.size());
+    auto* vertices = NewBuffer<Vec3f>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
+                                      body.positions.size());
     std::copy(body.positions.begin(), body.positions.end(), vertices);
-    auto* indices = NewBuffer<std::array<uint32_t, 3>>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
-                                                       body.triangles.size());
+    auto* indices = NewBuffer<std::array<uint32_t, 3>>(geometry, RTC_BUFFER_TYPE_INDEX,
+                                                       RTC_FORMAT_UINT3, body.triangles.size());
     std::copy(body.triangles.begin(), body.triangles.end(), indices);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tree, geometry, static_cast<uint32_t>(bodies.size()));
@@ -77,7 +83,8 @@ struct RayScene::Impl {
     for (int led = 0; led < camera.ring->count; ++led) {
       const auto centre = static_cast<uint32_t>(mesh.positions.size());
       mesh.positions.push_back(LedCentre(camera, led).cast<float>());
-      for (const Vec3d& corner : LedOutline(camera, led)) mesh.positions.push_back(corner.cast<float>());
+      for (const Vec3d& corner : LedOutline(camera, led))
+        mesh.positions.push_back(corner.cast<float>());
       for (uint32_t i = 0; i < kLedCorners; ++i) {
         mesh.triangles.push_back({centre, centre + 1 + i, centre + 1 + (i + 1) % kLedCorners});
       }
@@ -85,8 +92,8 @@ struct RayScene::Impl {
     AddTriangles("ring-" + camera.model.name, mesh, {});
   }
 
-  SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id, uint32_t primitive, float u, float v,
-                     float distance) const {
+  SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id,
+                     uint32_t primitive, float u, float v, float distance) const {
     SurfaceHit hit;
     hit.distance = distance;
     hit.body = body_id;
@@ -96,23 +103,27 @@ struct RayScene::Impl {
     const Vec3f& a = body.positions[t[0]];
     const Vec3f ab = body.positions[t[1]] - a, ac = body.positions[t[2]] - a;
     hit.geometric_normal = ab.cross(ac).normalized();
-    // The ray is right across its direction, also on triangles of metres; the triangle's plane is right along it.
+    // The ray is right across its direction, also on triangles of metres; the triangle's plane is
+    // right along it.
     const Vec3f on_ray = origin + distance * direction;
     hit.position = on_ray - hit.geometric_normal.dot(on_ray - a) * hit.geometric_normal;
     hit.shading_normal = hit.geometric_normal;
     if (!body.normals.empty()) {
       hit.shading_normal =
-          ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]]).normalized();
+          ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]])
+              .normalized();
     }
     if (hit.geometric_normal.dot(direction) > 0.0f) hit.geometric_normal = -hit.geometric_normal;
-    if (hit.shading_normal.dot(hit.geometric_normal) < 0.0f) hit.shading_normal = -hit.shading_normal;
+    if (hit.shading_normal.dot(hit.geometric_normal) < 0.0f)
+      hit.shading_normal = -hit.shading_normal;
     return hit;
   }
 };
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   impl_->scene = &scene;
-  for (const SceneObject& object : scene.objects) impl_->AddTriangles(object.name, object.mesh, object.world_from_object);
+  for (const SceneObject& object : scene.objects)
+    impl_->AddTriangles(object.name, object.mesh, object.world_from_object);
   impl_->objects = static_cast<uint32_t>(scene.objects.size());
   for (const CameraSpec& camera : scene.cameras) {
     if (!camera.ring) continue;
@@ -124,7 +135,8 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     for (const LightPanel& panel : scene.ambient.panels) {
       const auto first = static_cast<uint32_t>(panels.positions.size());
       for (const Vec3d& corner : {panel.corner, Vec3d(panel.corner + panel.edge_u),
-                                  Vec3d(panel.corner + panel.edge_u + panel.edge_v), Vec3d(panel.corner + panel.edge_v)}) {
+                                  Vec3d(panel.corner + panel.edge_u + panel.edge_v),
+                                  Vec3d(panel.corner + panel.edge_v)}) {
         panels.positions.push_back(corner.cast<float>());
       }
       panels.triangles.push_back({first, first + 1, first + 2});
@@ -132,6 +144,9 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     }
     impl_->AddTriangles("panels", panels, {});
   }
+  // Built by one thread, so that the tree, and with it ties on edges, are the same on every run.
+  // (Embree's own option for that would limit the whole process.)
+  const LimitThreads one(1);
   rtcCommitScene(impl_->tree);
 }
 
@@ -143,7 +158,8 @@ std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& 
   return Intersect(origin, direction, std::numeric_limits<float>::infinity());
 }
 
-std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& direction, float max_distance) const {
+std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& direction,
+                                              float max_distance) const {
   RTCRayHit query{};
   query.ray.org_x = origin.x();
   query.ray.org_y = origin.y();
@@ -158,7 +174,8 @@ std::optional<SurfaceHit> RayScene::Intersect(const Vec3f& origin, const Vec3f& 
   rtcInitIntersectContext(&context);
   rtcIntersect1(impl_->tree, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return impl_->Resolve(origin, direction, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar);
+  return impl_->Resolve(origin, direction, query.hit.geomID, query.hit.primID, query.hit.u,
+                        query.hit.v, query.ray.tfar);
 }
 
 bool RayScene::Occluded(const Vec3f& origin, const Vec3f& target) const {
@@ -184,8 +201,8 @@ bool RayScene::Occluded(const Vec3f& origin, const Vec3f& target) const {
 namespace {
 
 template <typename RayHitN, int N, typename Trace>
-void TracePackets(const Vec3f& origin, std::span<const Vec3f> directions, std::span<RayScene::PacketHit> hits,
-                  Trace trace) {
+void TracePackets(const Vec3f& origin, std::span<const Vec3f> directions,
+                  std::span<RayScene::PacketHit> hits, Trace trace) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -209,8 +226,8 @@ void TracePackets(const Vec3f& origin, std::span<const Vec3f> directions, std::s
     }
     trace(valid, &context, &packet);
     for (size_t i = 0; i < count; ++i) {
-      hits[first + i] = {packet.hit.geomID[i], packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i],
-                         packet.ray.tfar[i]};
+      hits[first + i] = {packet.hit.geomID[i], packet.hit.primID[i], packet.hit.u[i],
+                         packet.hit.v[i], packet.ray.tfar[i]};
     }
   }
 }
@@ -221,22 +238,29 @@ void RayScene::IntersectPacket(const Vec3f& origin, std::span<const Vec3f> direc
                                std::span<PacketHit> hits) const {
   static_assert(PacketHit::kNone == RTC_INVALID_GEOMETRY_ID);
   if (impl_->wide_packets) {
-    TracePackets<RTCRayHit16, 16>(origin, directions, hits, [&](const int* valid, RTCIntersectContext* c, RTCRayHit16* p) {
-      rtcIntersect16(valid, impl_->tree, c, p);
-    });
+    TracePackets<RTCRayHit16, 16>(origin, directions, hits,
+                                  [&](const int* valid, RTCIntersectContext* c, RTCRayHit16* p) {
+                                    rtcIntersect16(valid, impl_->tree, c, p);
+                                  });
   } else {
-    TracePackets<RTCRayHit8, 8>(origin, directions, hits, [&](const int* valid, RTCIntersectContext* c, RTCRayHit8* p) {
-      rtcIntersect8(valid, impl_->tree, c, p);
-    });
+    TracePackets<RTCRayHit8, 8>(origin, directions, hits,
+                                [&](const int* valid, RTCIntersectContext* c, RTCRayHit8* p) {
+                                  rtcIntersect8(valid, impl_->tree, c, p);
+                                });
   }
 }
 
-SurfaceHit RayScene::Resolve(const Vec3f& origin, const Vec3f& direction, const PacketHit& hit) const {
+SurfaceHit RayScene::Resolve(const Vec3f& origin, const Vec3f& direction,
+                             const PacketHit& hit) const {
   return impl_->Resolve(origin, direction, hit.body, hit.primitive, hit.u, hit.v, hit.distance);
 }
 
-uint32_t RayScene::ObjectCount() const { return impl_->objects; }
-uint32_t RayScene::RingCount() const { return impl_->rings; }
+uint32_t RayScene::ObjectCount() const {
+  return impl_->objects;
+}
+uint32_t RayScene::RingCount() const {
+  return impl_->rings;
+}
 
 std::vector<std::string> RayScene::BodyNames() const {
   std::vector<std::string> names;

@@ -9,17 +9,18 @@
 
 namespace retrolux {
 
-// Where a ray meets a surface, in world coordinates. Both normals are unit vectors and face the ray's origin;
-// the shading normal is interpolated where the mesh has vertex normals.
+// Where a ray meets a surface, in world coordinates. Both normals are unit vectors and face the
+// ray's origin; the shading normal is interpolated where the mesh has vertex normals.
 struct SurfaceHit {
   float distance = 0.0f;
   Vec3f position;
   Vec3f geometric_normal;
   Vec3f shading_normal;
-  // Index of what was hit: first the objects of the scene, then the rings (in the order of the cameras that have
-  // one), then the light panels as one.
+  // Index of what was hit: first the objects of the scene, then the rings (in the order of the
+  // cameras that have one), then the light panels as one.
   uint32_t body = 0;
-  uint32_t primitive = 0;  // triangle of an object, of a ring (kLedCorners an LED), of the panels (two each)
+  uint32_t primitive =
+      0;  // triangle of an object, of a ring (kLedCorners an LED), of the panels (two each)
 };
 
 class RayScene {
@@ -30,20 +31,23 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  std::optional<SurfaceHit> Intersect(const Vec3f& origin, const Vec3f& direction, float max_distance) const;
+  std::optional<SurfaceHit> Intersect(const Vec3f& origin, const Vec3f& direction,
+                                      float max_distance) const;
   std::optional<SurfaceHit> Intersect(const Vec3f& origin, const Vec3f& direction) const;
   // Whether anything lies on the segment, its last thousandth of a millimetre left out.
   bool Occluded(const Vec3f& origin, const Vec3f& target) const;
 
-  // The nearest hits of many rays from one origin, in packets of 16 (8 where the processor has no wider ones);
-  // hits[i] belongs to directions[i]. Directions need not have unit length: distances are in their units.
+  // The nearest hits of many rays from one origin, in packets of 16 (8 where the processor has no
+  // wider ones); hits[i] belongs to directions[i]. Directions need not have unit length: distances
+  // are in their units.
   struct PacketHit {
     static constexpr uint32_t kNone = 0xffffffffu;
     uint32_t body = kNone;
     uint32_t primitive = 0;
     float u = 0.0f, v = 0.0f, distance = 0.0f;
   };
-  void IntersectPacket(const Vec3f& origin, std::span<const Vec3f> directions, std::span<PacketHit> hits) const;
+  void IntersectPacket(const Vec3f& origin, std::span<const Vec3f> directions,
+                       std::span<PacketHit> hits) const;
   // What Intersect would have said about a packet's hit.
   SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, const PacketHit& hit) const;
 
@@ -58,8 +62,8 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
-// A point moved off its surface along the geometric normal, so that a ray that starts there does not meet the
-// surface again.
+// A point moved off its surface along the geometric normal, so that a ray that starts there does
+// not meet the surface again.
 inline Vec3f OffSurface(const Vec3f& position, const Vec3f& geometric_normal) {
   // Ten times the rounding of coordinates of 4 m in single precision.
   constexpr float kOffset_mm = 5e-3f;

@@ -16,9 +16,11 @@ struct ShotInfo {
   double exposure_s = 0.0;
 };
 
-// All channels of one camera, with what they mean in the header. Without a film (ids only) the ids alone.
-ExrImage ShotExr(const CameraSpec& camera, const IdBuffers& ids, const Film* film, const ShotInfo& info,
-                 const std::vector<std::string>& body_names, const std::vector<PlacedMarker>& markers,
+// All channels of one camera, with what they mean in the header. Without a film (ids only) the ids
+// alone.
+ExrImage ShotExr(const CameraSpec& camera, const IdBuffers& ids, const Film* film,
+                 const ShotInfo& info, const std::vector<std::string>& body_names,
+                 const std::vector<PlacedMarker>& markers,
                  const std::vector<MarkerSpec>& marker_specs);
 
 // truth.json, cameras in the order given.
@@ -26,8 +28,10 @@ struct CameraTruth {
   std::string camera;
   std::vector<MarkerView> views;  // one for each marker
 };
-nlohmann::json TruthJson(const std::vector<CameraTruth>& cameras, const std::vector<PlacedMarker>& markers,
-                         const std::vector<MarkerSpec>& marker_specs, const Scene& scene, const ShotInfo& info);
+nlohmann::json TruthJson(const std::vector<CameraTruth>& cameras,
+                         const std::vector<PlacedMarker>& markers,
+                         const std::vector<MarkerSpec>& marker_specs, const Scene& scene,
+                         const ShotInfo& info);
 
 // The key of the noise of one camera's picture.
 uint64_t NoiseKey(uint64_t noise_seed, const std::string& picture);

@@ -36,7 +36,8 @@ double PoissonByRejection(double mean, KeyedRng& rng) {
     if (us >= 0.07 && v <= v_r) return k;
     if (k < 0.0 || (us < 0.013 && v > us)) continue;
     const double inverse_alpha = 1.1239 + 1.1328 / (b - 3.4);
-    if (std::log(v * inverse_alpha / (a / (us * us) + b)) <= -mean + k * std::log(mean) - std::lgamma(k + 1.0)) {
+    if (std::log(v * inverse_alpha / (a / (us * us) + b)) <=
+        -mean + k * std::log(mean) - std::lgamma(k + 1.0)) {
       return k;
     }
   }
@@ -56,7 +57,8 @@ double InverseNormalCdf(double p) {
                           6.680131188771972e+01, -1.328068155288572e+01};
   constexpr double c[] = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
                           -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
-  constexpr double d[] = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00, 3.754408661907416e+00};
+  constexpr double d[] = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
+                          3.754408661907416e+00};
   constexpr double kTail = 0.02425;
   const auto tail = [&](double q) {
     return (((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
@@ -71,10 +73,12 @@ double InverseNormalCdf(double p) {
 }
 
 // Half a step off zero, so that the tail is finite: 8.2 standard deviations at most.
-double SampleNormal(KeyedRng& rng) { return InverseNormalCdf(rng.NextDouble() + 0x1p-54); }
+double SampleNormal(KeyedRng& rng) {
+  return InverseNormalCdf(rng.NextDouble() + 0x1p-54);
+}
 
-DigitalImage ExposeSensor(const FloatPlane& mean_electrons, const SensorSpec& sensor, double exposure_s,
-                          uint64_t noise_key) {
+DigitalImage ExposeSensor(const FloatPlane& mean_electrons, const SensorSpec& sensor,
+                          double exposure_s, uint64_t noise_key) {
   const double gain = GainDnPerElectron(sensor);
   const double dark_e = sensor.dark_current_e_s * exposure_s;
   const double max_dn = (1 << sensor.adc_bits) - 1;
@@ -83,10 +87,12 @@ DigitalImage ExposeSensor(const FloatPlane& mean_electrons, const SensorSpec& se
   image.dn = Plane<uint16_t>(mean_electrons.width, mean_electrons.height);
   for (size_t i = 0; i < mean_electrons.data.size(); ++i) {
     KeyedRng rng(CombineKeys(noise_key, i));
-    const double collected = SamplePoisson(static_cast<double>(mean_electrons.data[i]) + dark_e, rng);
-    const double electrons = std::min(collected, sensor.full_well_e) + sensor.read_noise_e * SampleNormal(rng);
-    image.dn.data[i] =
-        static_cast<uint16_t>(std::clamp(std::round(sensor.offset_dn + gain * electrons), 0.0, max_dn));
+    const double collected =
+        SamplePoisson(static_cast<double>(mean_electrons.data[i]) + dark_e, rng);
+    const double electrons =
+        std::min(collected, sensor.full_well_e) + sensor.read_noise_e * SampleNormal(rng);
+    image.dn.data[i] = static_cast<uint16_t>(
+        std::clamp(std::round(sensor.offset_dn + gain * electrons), 0.0, max_dn));
   }
   return image;
 }

@@ -4,8 +4,10 @@ namespace retrolux {
 
 const std::vector<BuiltInEntry>& BuiltInScenes() {
   static const std::vector<BuiltInEntry> scenes = {
-      {"ct-room", "the CT scanner room: oval on the couch, gantry, six ring-lit cameras, three poses", CtRoom},
-      {"oval", "the oval (280 x 200 x 200 mm) with all markers, one ring-lit camera at 1600 mm", OvalScene},
+      {"ct-room",
+       "the CT scanner room: oval on the couch, gantry, six ring-lit cameras, three poses", CtRoom},
+      {"oval", "the oval (280 x 200 x 200 mm) with all markers, one ring-lit camera at 1600 mm",
+       OvalScene},
       {"sphere", "a sphere of radius 100 mm, one ring-lit camera at 1600 mm", SphereScene},
   };
   return scenes;
@@ -17,7 +19,8 @@ Scene BuiltInScene(const std::string& name) {
     if (name == entry.name) return entry.make();
     names.emplace_back(entry.name);
   }
-  throw InputError(fmt::format("no built-in scene '{}'; expected one of {}", name, JoinNames(names)));
+  throw InputError(
+      fmt::format("no built-in scene '{}'; expected one of {}", name, JoinNames(names)));
 }
 
 }  // namespace retrolux

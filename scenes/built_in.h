@@ -1,5 +1,5 @@
-// The scenes that come with the program, by name. To add one: a function that returns a Scene and a row in
-// the table of built_in.cpp.
+// The scenes that come with the program, by name. To add one: a function that returns a Scene and a
+// row in the table of built_in.cpp.
 #pragma once
 
 #include "scenes/scene.h"

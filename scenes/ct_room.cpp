@@ -1,6 +1,7 @@
-// The CT scanner room of the thesis (section 3.2): x up, z to the front, origin at the scan point. Camera
-// positions, field of view, oval and poses are the thesis's (table 3.1, sections 3.2 to 3.4); everything that
-// its lost figures held (gantry, couch, room) is an assumption, listed in docs/assumptions.md.
+// The CT scanner room of the thesis (section 3.2): x up, z to the front, origin at the scan point.
+// Camera positions, field of view, oval and poses are the thesis's (table 3.1, sections 3.2
+// to 3.4); everything that its lost figures held (gantry, couch, room) is an assumption, listed in
+// docs/assumptions.md.
 #include "scenes/built_in.h"
 #include "scenes/mesh_shapes.h"
 
@@ -12,8 +13,8 @@ namespace {
 const Vec3d kOvalSemiAxes(100.0, 100.0, 140.0);
 constexpr int kOvalLevels = 5;  // 20,480 triangles
 
-// A conventional CT of about 2003: 700 mm bore, 800 mm deep. The flares are as wide as the front cameras need:
-// their lines of sight to the scan point leave a 350 mm bore at z = 277 to 307 mm.
+// A conventional CT of about 2003: 700 mm bore, 800 mm deep. The flares are as wide as the front
+// cameras need: their lines of sight to the scan point leave a 350 mm bore at z = 277 to 307 mm.
 constexpr double kBoreRadius = 350.0;
 constexpr double kBoreHalfLength = 120.0;
 constexpr double kFrontFlareRadius = 620.0;
@@ -36,7 +37,8 @@ constexpr double kCouchHalfWidth = 210.0;
 constexpr double kCouchHeadEnd = -160.0;
 constexpr double kCouchLength = 2000.0;
 
-// Four ceiling luminaires of 1200 x 300 mm; 8 W/(m2 sr) is about 2700 cd/m2 at 340 lm/W, as office lighting.
+// Four ceiling luminaires of 1200 x 300 mm; 8 W/(m2 sr) is about 2700 cd/m2 at 340 lm/W, as office
+// lighting.
 constexpr double kLuminaireRadiance = 8.0;
 
 struct CameraPlace {
@@ -44,11 +46,13 @@ struct CameraPlace {
   Vec3d eye;
 };
 const CameraPlace kCameras[] = {
-    {"front-middle", {1265, 0, 1109}}, {"front-left", {1265, 600, 1109}}, {"front-right", {1265, -600, 1109}},
-    {"back-middle", {680, 0, -1441}},  {"back-left", {680, 300, -1441}},  {"back-right", {680, -300, -1441}},
+    {"front-middle", {1265, 0, 1109}},   {"front-left", {1265, 600, 1109}},
+    {"front-right", {1265, -600, 1109}}, {"back-middle", {680, 0, -1441}},
+    {"back-left", {680, 300, -1441}},    {"back-right", {680, -300, -1441}},
 };
 
-void Add(Scene& scene, const std::string& name, TriangleMesh mesh, const std::string& material, bool moves = false) {
+void Add(Scene& scene, const std::string& name, TriangleMesh mesh, const std::string& material,
+         bool moves = false) {
   scene.UseMaterial(material);
   scene.objects.push_back({name, std::move(mesh), {}, material, moves});
 }
@@ -56,13 +60,15 @@ void Add(Scene& scene, const std::string& name, TriangleMesh mesh, const std::st
 TriangleMesh GantryBody() {
   const Vec2d lo(kFloor, -kGantryHalfWidth), hi(kGantryTop, kGantryHalfWidth);
   const double depth = 2.0 * kGantryHalfDepth;
-  TriangleMesh body = PlateWithHoleMesh(lo, hi, kGantryHalfDepth, kFrontFlareRadius, kGantrySegments, true);
-  body.Append(PlateWithHoleMesh(lo, hi, -kGantryHalfDepth, kBackFlareRadius, kGantrySegments, false));
+  TriangleMesh body =
+      PlateWithHoleMesh(lo, hi, kGantryHalfDepth, kFrontFlareRadius, kGantrySegments, true);
+  body.Append(
+      PlateWithHoleMesh(lo, hi, -kGantryHalfDepth, kBackFlareRadius, kGantrySegments, false));
   const Vec3d width(0, hi.y() - lo.y(), 0), height(hi.x() - lo.x(), 0, 0), z(0, 0, depth);
   const Vec3d corner(lo.x(), lo.y(), -kGantryHalfDepth);
-  body.Append(RectangleMesh(corner + height, width, z));   // top
-  body.Append(RectangleMesh(corner, height, z));           // side at -y
-  body.Append(RectangleMesh(corner + width, z, height));   // side at +y
+  body.Append(RectangleMesh(corner + height, width, z));  // top
+  body.Append(RectangleMesh(corner, height, z));          // side at -y
+  body.Append(RectangleMesh(corner + width, z, height));  // side at +y
   return body;
 }
 
@@ -87,7 +93,9 @@ void AddRoom(Scene& scene) {
 
 void AddScanner(Scene& scene) {
   Add(scene, "bore",
-      BoreMesh({{kBackFlareRadius, -kGantryHalfDepth}, {kBoreRadius, -kBoreHalfLength}, {kBoreRadius, kBoreHalfLength},
+      BoreMesh({{kBackFlareRadius, -kGantryHalfDepth},
+                {kBoreRadius, -kBoreHalfLength},
+                {kBoreRadius, kBoreHalfLength},
                 {kFrontFlareRadius, kGantryHalfDepth}},
                kGantrySegments),
       "gantry_plastic");
@@ -111,7 +119,8 @@ SceneObject Housing(const CameraModel& camera) {
 // The thesis's camera, looking at the origin.
 CameraSpec ThesisCamera(const std::string& name, const Vec3d& eye, const Vec3d& up) {
   CameraSpec camera;
-  camera.model = CameraModel::FromFieldOfView(name, 640, 480, 12.18, 9.15, LookAt(eye, Vec3d::Zero(), up));
+  camera.model =
+      CameraModel::FromFieldOfView(name, 640, 480, 12.18, 9.15, LookAt(eye, Vec3d::Zero(), up));
   camera.filter = DichroicFilter{};
   camera.ring = DiodeRing{};
   return camera;
@@ -141,10 +150,12 @@ Scene OvalScene() {
   Add(scene, "mask", EllipsoidMesh(kOvalSemiAxes, kOvalLevels), "mask");
   scene.UseMaterial("retro_bead");
   scene.cameras.push_back(ThesisCamera("camera", {1600, 0, 0}, Vec3d::UnitZ()));
-  // The six identifiable markers and a standard one in the middle, spread over the side that the camera sees.
+  // The six identifiable markers and a standard one in the middle, spread over the side that the
+  // camera sees.
   for (int i = 0; i < 6; ++i) {
     const double z = i < 3 ? -55.0 : 55.0;
-    scene.markers.push_back({fmt::format("marker-{}", i + 1), i + 1, "mask", Vec3d(90.0, 45.0 * (i % 3 - 1), z), 15.0 * i});
+    scene.markers.push_back({fmt::format("marker-{}", i + 1), i + 1, "mask",
+                             Vec3d(90.0, 45.0 * (i % 3 - 1), z), 15.0 * i});
   }
   scene.markers.push_back({"standard", 0, "mask", Vec3d(100, 0, 0)});
   return scene;

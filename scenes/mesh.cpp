@@ -16,17 +16,19 @@ double TriangleMesh::Area() const {
 }
 
 void TriangleMesh::Append(const TriangleMesh& other) {
-  RETROLUX_CHECK(positions.empty() || normals.empty() == other.normals.empty(), "normals on one side only");
+  RETROLUX_CHECK(positions.empty() || normals.empty() == other.normals.empty(),
+                 "normals on one side only");
   const auto offset = static_cast<uint32_t>(positions.size());
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
   normals.insert(normals.end(), other.normals.begin(), other.normals.end());
-  for (const auto& t : other.triangles) triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  for (const auto& t : other.triangles)
+    triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }
 
 namespace {
 
-// Barycentric coordinates of the point of triangle (a, b, c) nearest to p (Ericson, Real-Time Collision
-// Detection, 5.1.5).
+// Barycentric coordinates of the point of triangle (a, b, c) nearest to p (Ericson, Real-Time
+// Collision Detection, 5.1.5).
 Vec3d NearestBarycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);

@@ -10,8 +10,8 @@
 
 namespace retrolux {
 
-// Counter-clockwise seen from outside. `normals` are unit vectors at the vertices, as many as positions,
-// or none: then the surface is flat-shaded.
+// Counter-clockwise seen from outside. `normals` are unit vectors at the vertices, as many as
+// positions, or none: then the surface is flat-shaded.
 struct TriangleMesh {
   std::vector<Vec3f> positions;  // mm
   std::vector<Vec3f> normals;

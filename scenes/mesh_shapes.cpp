@@ -18,19 +18,21 @@ struct UnitSphere {
 UnitSphere Icosahedron() {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   UnitSphere s;
-  s.points = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-              {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
+  s.points = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+              {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
   for (Vec3d& p : s.points) p.normalize();
-  s.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                 {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  s.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   return s;
 }
 
 void Subdivide(UnitSphere& sphere) {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> midpoints;
   const auto midpoint = [&](uint32_t a, uint32_t b) {
-    const auto [entry, is_new] = midpoints.try_emplace(std::minmax(a, b), static_cast<uint32_t>(sphere.points.size()));
+    const auto [entry, is_new] =
+        midpoints.try_emplace(std::minmax(a, b), static_cast<uint32_t>(sphere.points.size()));
     if (is_new) sphere.points.push_back((sphere.points[a] + sphere.points[b]).normalized());
     return entry->second;
   };
@@ -126,8 +128,8 @@ Vec2d OnRectangle(const Vec2d& lo, const Vec2d& hi, double phi) {
 
 }  // namespace
 
-TriangleMesh PlateWithHoleMesh(const Vec2d& lo, const Vec2d& hi, double z, double hole_radius, int segments,
-                               bool faces_up) {
+TriangleMesh PlateWithHoleMesh(const Vec2d& lo, const Vec2d& hi, double z, double hole_radius,
+                               int segments, bool faces_up) {
   std::vector<double> angles;
   for (int i = 0; i < segments; ++i) angles.push_back(-kPi + 2.0 * kPi * i / segments);
   for (const Vec2d& corner : {lo, hi, Vec2d(lo.x(), hi.y()), Vec2d(hi.x(), lo.y())}) {

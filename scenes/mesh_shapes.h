@@ -1,4 +1,5 @@
-// Meshes of simple shapes, all counter-clockwise seen from outside (or from inside where it says so).
+// Meshes of simple shapes, all counter-clockwise seen from outside (or from inside where it says
+// so).
 #pragma once
 
 #include <vector>
@@ -7,9 +8,9 @@
 
 namespace retrolux {
 
-// Ellipsoid about the origin: an icosahedron subdivided `levels` times (20 * 4^levels triangles), vertices and
-// vertex normals exact. At level 5 the surface of
-// the oval lies less than 0.03 mm inside the true one.
+// Ellipsoid about the origin: an icosahedron subdivided `levels` times (20 * 4^levels triangles),
+// vertices and vertex normals exact. At level 5 the surface of the oval lies less than 0.03 mm
+// inside the true one.
 TriangleMesh EllipsoidMesh(const Vec3d& semi_axes, int levels);
 
 TriangleMesh BoxMesh(const Vec3d& min_corner, const Vec3d& max_corner);
@@ -19,12 +20,13 @@ TriangleMesh InvertedBoxMesh(const Vec3d& min_corner, const Vec3d& max_corner);
 
 TriangleMesh RectangleMesh(const Vec3d& corner, const Vec3d& edge_u, const Vec3d& edge_v);
 
-// The surface that (radius, z) points describe when turned about the z axis, seen from the axis: a bore.
-// Smooth around the axis, creased between the points. z must ascend.
+// The surface that (radius, z) points describe when turned about the z axis, seen from the axis: a
+// bore. Smooth around the axis, creased between the points. z must ascend.
 TriangleMesh BoreMesh(const std::vector<Vec2d>& radius_and_z, int segments);
 
-// The rectangle [min, max] in (x, y) at height z with a round hole about the z axis, facing +z or -z.
-TriangleMesh PlateWithHoleMesh(const Vec2d& min_xy, const Vec2d& max_xy, double z, double hole_radius, int segments,
-                               bool faces_up);
+// The rectangle [min, max] in (x, y) at height z with a round hole about the z axis, facing +z or
+// -z.
+TriangleMesh PlateWithHoleMesh(const Vec2d& min_xy, const Vec2d& max_xy, double z,
+                               double hole_radius, int segments, bool faces_up);
 
 }  // namespace retrolux

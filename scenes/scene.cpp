@@ -13,7 +13,8 @@ double DiodeRing::LambertExponent() const {
 
 Vec3d LedCentre(const CameraSpec& camera, int index) {
   const double angle = 2.0 * kPi * index / camera.ring->count;
-  const Vec3d in_camera(camera.ring->radius_mm * std::cos(angle), camera.ring->radius_mm * std::sin(angle), 0.0);
+  const Vec3d in_camera(camera.ring->radius_mm * std::cos(angle),
+                        camera.ring->radius_mm * std::sin(angle), 0.0);
   return camera.model.camera_from_world.Inverse() * in_camera;
 }
 
@@ -21,12 +22,15 @@ std::array<Vec3d, kLedCorners> LedOutline(const CameraSpec& camera, int index) {
   const Mat3d world_from_camera = camera.model.camera_from_world.rotation.transpose();
   const Vec3d centre = LedCentre(camera, index);
   // n/2 r^2 sin(2 pi / n) = pi r_led^2
-  const double radius = camera.ring->led_radius_mm * std::sqrt(2.0 * kPi / (kLedCorners * std::sin(2.0 * kPi / kLedCorners)));
+  const double radius = camera.ring->led_radius_mm *
+                        std::sqrt(2.0 * kPi / (kLedCorners * std::sin(2.0 * kPi / kLedCorners)));
   std::array<Vec3d, kLedCorners> corners;
   for (int i = 0; i < kLedCorners; ++i) {
-    // The camera's x, y, z (forward) are right-handed: increasing angle is counter-clockwise for who looks back along -z.
+    // The camera's x, y, z (forward) are right-handed: increasing angle is counter-clockwise for
+    // who looks back along -z.
     const double angle = 2.0 * kPi * i / kLedCorners;
-    corners[static_cast<size_t>(i)] = centre + world_from_camera * Vec3d(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    corners[static_cast<size_t>(i)] =
+        centre + world_from_camera * Vec3d(radius * std::cos(angle), radius * std::sin(angle), 0.0);
   }
   return corners;
 }
@@ -35,7 +39,8 @@ namespace {
 
 // The element of that name, or an error that lists the names there are.
 template <typename T, typename NameOf>
-const T& FindNamed(const std::vector<T>& items, const std::string& name, const char* kind, NameOf name_of) {
+const T& FindNamed(const std::vector<T>& items, const std::string& name, const char* kind,
+                   NameOf name_of) {
   std::vector<std::string> names;
   for (const T& item : items) {
     if (name_of(item) == name) return item;
@@ -52,7 +57,8 @@ const SceneObject& Scene::Object(const std::string& object_name) const {
 }
 
 const CameraSpec& Scene::Camera(const std::string& camera_name) const {
-  return FindNamed(cameras, camera_name, "camera", [](const CameraSpec& c) { return c.model.name; });
+  return FindNamed(cameras, camera_name, "camera",
+                   [](const CameraSpec& c) { return c.model.name; });
 }
 
 Scene Scene::AtPose(const std::string& pose_name) const {
@@ -99,40 +105,53 @@ void CheckFileName(const std::string& name, const std::filesystem::path& file, c
   });
   if (!plain || name.starts_with(".") || name == kAmbientGroup) {
     throw InputError::At(file, kind, fmt::format("the name '{}'", name),
-                         "letters, digits, '_', '-', '+' and '.', not first a '.', and not 'ambient' (it names output files)");
+                         "letters, digits, '_', '-', '+' and '.', not first a '.', and not "
+                         "'ambient' (it names output files)");
   }
 }
 
-void CheckSensor(const SensorSpec& sensor, const std::filesystem::path& file, const std::string& place) {
+void CheckSensor(const SensorSpec& sensor, const std::filesystem::path& file,
+                 const std::string& place) {
   const double max_dn = (1 << sensor.adc_bits) - 1;
   if (!(sensor.offset_dn < max_dn)) {
-    throw InputError::At(file, place, fmt::format("offset_dn {} of an ADC that ends at {}", sensor.offset_dn, max_dn), "a smaller offset");
+    throw InputError::At(
+        file, place,
+        fmt::format("offset_dn {} of an ADC that ends at {}", sensor.offset_dn, max_dn),
+        "a smaller offset");
   }
 }
 
 void CheckRotation(const Mat3d& r, const std::filesystem::path& file, const std::string& place) {
   if (!((r * r.transpose() - Mat3d::Identity()).norm() < 1e-6) || r.determinant() < 0.0) {
-    throw InputError::At(file, place, "a matrix that is no rotation (is 'up' along the line of sight?)", "a rigid transform");
+    throw InputError::At(file, place,
+                         "a matrix that is no rotation (is 'up' along the line of sight?)",
+                         "a rigid transform");
   }
 }
 
 void CheckObject(const Scene& scene, const SceneObject& object, const std::filesystem::path& file) {
   const std::string place = fmt::format("object '{}'", object.name);
   if (!scene.materials.contains(object.material)) {
-    throw InputError::At(file, place, fmt::format("material '{}'", object.material), "a material of the scene");
+    throw InputError::At(file, place, fmt::format("material '{}'", object.material),
+                         "a material of the scene");
   }
   const size_t vertices = object.mesh.positions.size();
   for (const auto& triangle : object.mesh.triangles) {
     for (const uint32_t v : triangle) {
-      if (v >= vertices) throw InputError::At(file, place, fmt::format("vertex {} of {}", v, vertices), "vertices that exist");
+      if (v >= vertices)
+        throw InputError::At(file, place, fmt::format("vertex {} of {}", v, vertices),
+                             "vertices that exist");
     }
   }
   for (const Vec3f& p : object.mesh.positions) {
-    if (!p.allFinite()) throw InputError::At(file, place, "a vertex that is not a number", "finite coordinates");
+    if (!p.allFinite())
+      throw InputError::At(file, place, "a vertex that is not a number", "finite coordinates");
   }
   if (object.mesh.triangles.empty() || !(object.mesh.Area() > 0.0)) {
-    throw InputError::At(file, place, fmt::format("a mesh of {} triangles without area", object.mesh.triangles.size()),
-                         "a surface");
+    throw InputError::At(
+        file, place,
+        fmt::format("a mesh of {} triangles without area", object.mesh.triangles.size()),
+        "a surface");
   }
   CheckRotation(object.world_from_object.rotation, file, place);
 }
@@ -144,7 +163,8 @@ void CheckSpectra(const Scene& scene, const std::filesystem::path& file) {
   }
   const size_t spectra = leds.size() + 1;  // and the room's
   if (spectra > static_cast<size_t>(kMaxSpectra)) {
-    throw InputError::At(file, "cameras", fmt::format("{} kinds of light (LED types and the room)", spectra),
+    throw InputError::At(file, "cameras",
+                         fmt::format("{} kinds of light (LED types and the room)", spectra),
                          fmt::format("at most {}", kMaxSpectra));
   }
 }
@@ -152,7 +172,8 @@ void CheckSpectra(const Scene& scene, const std::filesystem::path& file) {
 }  // namespace
 
 void CheckScene(const Scene& scene, const std::filesystem::path& file) {
-  UniqueNames objects(file, "objects"), cameras(file, "cameras"), markers(file, "markers"), poses(file, "poses");
+  UniqueNames objects(file, "objects"), cameras(file, "cameras"), markers(file, "markers"),
+      poses(file, "poses");
   for (const SceneObject& object : scene.objects) {
     objects.Add(object.name);
     CheckObject(scene, object, file);
@@ -162,10 +183,12 @@ void CheckScene(const Scene& scene, const std::filesystem::path& file) {
     cameras.Add(camera.model.name);
     CheckFileName(camera.model.name, file, "cameras");
     CheckSensor(camera.sensor, file, fmt::format("camera '{}'", camera.model.name));
-    CheckRotation(camera.model.camera_from_world.rotation, file, fmt::format("camera '{}'", camera.model.name));
+    CheckRotation(camera.model.camera_from_world.rotation, file,
+                  fmt::format("camera '{}'", camera.model.name));
   }
   if (scene.exposure.time_s <= 0.0 && !scene.materials.contains(scene.exposure.marker_material)) {
-    throw InputError::At(file, "exposure", fmt::format("marker_material '{}'", scene.exposure.marker_material),
+    throw InputError::At(file, "exposure",
+                         fmt::format("marker_material '{}'", scene.exposure.marker_material),
                          "a material of the scene");
   }
   for (const Pose& pose : scene.poses) {
@@ -182,7 +205,8 @@ void CheckScene(const Scene& scene, const std::filesystem::path& file) {
       throw InputError(fmt::format("{}: {}: {}", file.string(), place, error.what()));
     }
     if (!scene.materials.contains(marker.material)) {
-      throw InputError::At(file, place, fmt::format("material '{}'", marker.material), "a material of the scene");
+      throw InputError::At(file, place, fmt::format("material '{}'", marker.material),
+                           "a material of the scene");
     }
   }
   CheckSpectra(scene, file);

@@ -1,5 +1,5 @@
-// The description of a scene: plain structs, filled by scene.json (scene_json.h) or by code (built_in.h),
-// read by the renderer. Lengths mm, world frame of core/conventions.h.
+// The description of a scene: plain structs, filled by scene.json (scene_json.h) or by code
+// (built_in.h), read by the renderer. Lengths mm, world frame of core/conventions.h.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct DiodeRing {
   double radius_mm = 30.0;
   double peak_nm = 880.0;
   double fwhm_nm = 80.0;
-  double half_angle_deg = 20.0;              // where the intensity is half: I = I0 cos^m, m = -ln 2 / ln cos
-  double radiant_intensity_w_sr = 0.05;      // I0 of one LED, over its whole spectrum
-  double led_radius_mm = 2.5;                // radius of the emitting disc
+  double half_angle_deg = 20.0;  // where the intensity is half: I = I0 cos^m, m = -ln 2 / ln cos
+  double radiant_intensity_w_sr = 0.05;  // I0 of one LED, over its whole spectrum
+  double led_radius_mm = 2.5;            // radius of the emitting disc
 
   double LambertExponent() const;
 };
@@ -39,14 +39,15 @@ struct Lens {
   double transmission = 0.85;  // of the glass, without the filter
 };
 
-// The sensor as EMVA 1288 describes one (linear model). Defaults: a half-inch interline CCD of about 2003.
+// The sensor as EMVA 1288 describes one (linear model). Defaults: a half-inch interline CCD of
+// about 2003.
 struct SensorSpec {
   std::string quantum_efficiency = "materials/data/qe_interline_ccd.csv";
   double full_well_e = 30000.0;
-  double read_noise_e = 20.0;          // temporal dark noise of the read-out, 1 sigma
-  double dark_current_e_s = 50.0;      // at operating temperature
+  double read_noise_e = 20.0;      // temporal dark noise of the read-out, 1 sigma
+  double dark_current_e_s = 50.0;  // at operating temperature
   int adc_bits = 8;
-  double offset_dn = 3.0;              // black level, so that dark noise is not cut off at zero
+  double offset_dn = 3.0;  // black level, so that dark noise is not cut off at zero
   // Gain in DN per electron. 0: chosen so that a full well is the largest number of the ADC.
   double gain_dn_e = 0.0;
 };
@@ -62,8 +63,8 @@ struct CameraSpec {
 // Centre of LED `index` of a camera's ring in the world; LED 0 lies on the camera's +x axis.
 Vec3d LedCentre(const CameraSpec& camera, int index);
 
-// Corners of its emitting surface: a regular polygon with the area of the LED's disc, so that it is made of triangles
-// of equal area; counter-clockwise seen from in front of the camera.
+// Corners of its emitting surface: a regular polygon with the area of the LED's disc, so that it is
+// made of triangles of equal area; counter-clockwise seen from in front of the camera.
 inline constexpr int kLedCorners = 12;
 std::array<Vec3d, kLedCorners> LedOutline(const CameraSpec& camera, int index);
 
@@ -76,28 +77,28 @@ struct LightPanel {
 inline constexpr const char* kAmbientGroup = "ambient";
 struct AmbientLight {
   std::string spectrum = "materials/data/fluorescent.csv";  // relative emission over wavelength
-  double radiance_w_m2_sr = 0.0;         // of the panels, 400 to 1100 nm
+  double radiance_w_m2_sr = 0.0;                            // of the panels, 400 to 1100 nm
   std::vector<LightPanel> panels;
-  double environment_w_m2_sr = 0.0;      // from where no object is, the same spectrum
+  double environment_w_m2_sr = 0.0;  // from where no object is, the same spectrum
 };
 
 struct SceneObject {
   std::string name;
-  TriangleMesh mesh;                  // object frame
+  TriangleMesh mesh;  // object frame
   RigidTransform world_from_object;
-  std::string material;               // name in Scene::materials
+  std::string material;  // name in Scene::materials
   bool moves_with_pose = false;
 };
 
 // A marker on the surface of an object.
 struct MarkerSpec {
   std::string name;
-  int number = 1;                     // shape in the marker set
-  std::string object;                 // whose surface it lies on
-  Vec3d at = Vec3d::Zero();           // object frame; the nearest point of the surface is taken
-  double roll_deg = 0.0;              // about the outward normal, see marker_placement.h
+  int number = 1;            // shape in the marker set
+  std::string object;        // whose surface it lies on
+  Vec3d at = Vec3d::Zero();  // object frame; the nearest point of the surface is taken
+  double roll_deg = 0.0;     // about the outward normal, see marker_placement.h
   std::string material = "retro_bead";
-  bool dark = false;                  // a dark shape on a bright square instead of a bright shape
+  bool dark = false;  // a dark shape on a bright square instead of a bright shape
 };
 
 // A position of the patient: all objects that move with the pose are shifted by it.
@@ -107,8 +108,8 @@ struct Pose {
 };
 
 struct Exposure {
-  // 0: derived, so that a frontal marker of `marker_material` at `distance_mm` in the light of the camera's
-  // own ring sits at `fraction` of full scale (renderer/exposure.h).
+  // 0: derived, so that a frontal marker of `marker_material` at `distance_mm` in the light of the
+  // camera's own ring sits at `fraction` of full scale (renderer/exposure.h).
   double time_s = 0.0;
   double fraction = 0.7;
   double distance_mm = 1600.0;
@@ -117,13 +118,13 @@ struct Exposure {
 
 struct Scene {
   std::string name;
-  UpAxis up_axis = UpAxis::kX;        // how the world stands in a glTF viewer
+  UpAxis up_axis = UpAxis::kX;  // how the world stands in a glTF viewer
   std::map<std::string, Material> materials;
   std::vector<SceneObject> objects;
   std::vector<CameraSpec> cameras;
   std::vector<MarkerSpec> markers;
   AmbientLight ambient;
-  std::vector<Pose> poses;            // the first is the one that the objects are given in
+  std::vector<Pose> poses;  // the first is the one that the objects are given in
   Exposure exposure;
 
   // InputError that lists the known names.
@@ -136,8 +137,9 @@ struct Scene {
   void UseMaterial(const std::string& material_name);
 };
 
-// What the parts of a scene must fulfil beyond their types: names that exist and are unique, meshes with an
-// area, cameras with pixels, at most kMaxSpectra kinds of light. InputError that begins with `file`.
+// What the parts of a scene must fulfil beyond their types: names that exist and are unique, meshes
+// with an area, cameras with pixels, at most kMaxSpectra kinds of light. InputError that begins
+// with `file`.
 void CheckScene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace retrolux

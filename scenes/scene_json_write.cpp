@@ -195,8 +195,12 @@ void ExportScene(const Scene& scene, const fs::path& folder) {
   CheckScene(scene, scene.name);
   EnsureWritableFolder(folder);
   const std::string geometry = FileStem(scene.name) + ".glb";
-  Json json = {{"schema", "retrolux/scene-1"}, {"version", RETROLUX_VERSION}, {"units", "mm"},
-               {"pixel_origin", "center"},     {"name", scene.name},          {"up_axis", scene.up_axis == UpAxis::kZ ? "z" : "x"}};
+  Json json = {{"schema", "retrolux/scene-1"},
+               {"version", RETROLUX_VERSION},
+               {"units", "mm"},
+               {"pixel_origin", "center"},
+               {"name", scene.name},
+               {"up_axis", scene.up_axis == UpAxis::kZ ? "z" : "x"}};
   json.update(Description(scene));
   for (Json& object : json["objects"]) {
     object["file"] = geometry;

@@ -11,21 +11,27 @@ class PhysicalChecks : public testing::TestWithParam<CheckGroup> {};
 
 TEST_P(PhysicalChecks, MeasureWhatTheyMust) {
   for (const Check& check : GetParam().run()) {
-    EXPECT_TRUE(check.Pass()) << check.name << ": measured " << check.measured << " " << check.unit << ", expected "
-                              << check.expected << " +- " << check.tolerance << " (" << check.source << ")";
+    EXPECT_TRUE(check.Pass()) << check.name << ": measured " << check.measured << " " << check.unit
+                              << ", expected " << check.expected << " +- " << check.tolerance
+                              << " (" << check.source << ")";
     RecordProperty(check.name, std::to_string(check.measured));
   }
 }
-INSTANTIATE_TEST_SUITE_P(All, PhysicalChecks, testing::ValuesIn(CheckGroups()), [](const auto& group) {
-  std::string name = group.param.name;
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, PhysicalChecks, testing::ValuesIn(CheckGroups()),
+                         [](const auto& group) {
+                           std::string name = group.param.name;
+                           for (char& c : name)
+                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
 
-TEST(Check, NaNFails) { EXPECT_FALSE((Check{"", std::nan(""), 1.0, 1e9, "", ""}.Pass())); }
+TEST(Check, NaNFails) {
+  EXPECT_FALSE((Check{"", std::nan(""), 1.0, 1e9, "", ""}.Pass()));
+}
 
 TEST(MarkerGrid, CellsCoverTheFaceHalf) {
-  // Prolate spheroid with a = 100, c = 140: S = 2 pi a^2 (1 + c / (a e) asin e), e = sqrt(1 - a^2/c^2); half of it.
+  // Prolate spheroid with a = 100, c = 140: S = 2 pi a^2 (1 + c / (a e) asin e), e = sqrt(1 -
+  // a^2/c^2); half of it.
   const double e = std::sqrt(1.0 - 100.0 * 100.0 / (140.0 * 140.0));
   const double half = kPi * 1e4 * (1.0 + 1.4 / e * std::asin(e));
   EXPECT_NEAR(marker_grid::FaceHalfArea_mm2(), half, 1e-3 * half * 1e-3);
@@ -50,7 +56,8 @@ MarkerStudy StudyWith(const std::vector<PictureResult>& results) {
   MarkerStudy study;
   study.options.markers = {2};
   study.poses = {{"reference", {}}, {"start", {}}, {"end", {}}};
-  study.cameras = {"front-middle", "front-left", "front-right", "back-middle", "back-left", "back-right"};
+  study.cameras = {"front-middle", "front-left", "front-right",
+                   "back-middle",  "back-left",  "back-right"};
   study.results = results;
   return study;
 }
@@ -70,7 +77,8 @@ TEST(StudyCoverage, SetsAsTheyAreDefined) {
   // Cell (3, 4): one front and one back camera in reference: satisfies, but neither front nor back.
   hits.push_back(HitAt(0, 0, 3, 4));
   hits.push_back(HitAt(0, 3, 3, 4));
-  // Cell (5, 6): front pair in reference and start, back pair in reference and end: expanded, not all.
+  // Cell (5, 6): front pair in reference and start, back pair in reference and end: expanded, not
+  // all.
   for (const int pose : {0, 1}) {
     hits.push_back(HitAt(pose, 0, 5, 6));
     hits.push_back(HitAt(pose, 2, 5, 6));
@@ -81,7 +89,8 @@ TEST(StudyCoverage, SetsAsTheyAreDefined) {
   }
   const MarkerStudy study = StudyWith(hits);
   const StudyCoverage coverage(study);
-  const double area3 = 2.0 * marker_grid::CellArea_mm2(3), area5 = 2.0 * marker_grid::CellArea_mm2(5);
+  const double area3 = 2.0 * marker_grid::CellArea_mm2(3),
+               area5 = 2.0 * marker_grid::CellArea_mm2(5);
   EXPECT_NEAR(coverage.Set("satisfies", 2, "reference")->area_mm2, area3 + area5, 1e-9);
   EXPECT_NEAR(coverage.Set("front", 2, "reference")->area_mm2, area5, 1e-9);
   EXPECT_NEAR(coverage.Set("both", 2, "reference")->area_mm2, area5, 1e-9);
@@ -118,7 +127,8 @@ TEST(MarkerStudy, WrongScenesAreRefused) {
     RunMarkerStudy(oval, options, testing::TempDir(), NoProgress());
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "scene 'oval': camera 'camera'; expected names that begin with 'front' or 'back'");
+    EXPECT_STREQ(error.what(),
+                 "scene 'oval': camera 'camera'; expected names that begin with 'front' or 'back'");
   }
 }
 

@@ -1,7 +1,9 @@
-// A composed picture must be the full render of the same scene, but for the light that the marker throws elsewhere.
+// A composed picture must be the full render of the same scene, but for the light that the marker
+// throws elsewhere.
+#include "analysis/composed_picture.h"
+
 #include <gtest/gtest.h>
 
-#include "analysis/composed_picture.h"
 #include "analysis/marker_grid.h"
 #include "renderer/exposure.h"
 #include "scenes/built_in.h"
@@ -64,41 +66,48 @@ Plane<uint8_t> Regions(const Room& room, const CameraSpec& camera) {
 TEST(ComposedPicture, SameSeedGivesTheSameBitsWhereTheMarkerIsTraced) {
   const Room room;
   const CameraSpec& camera = room.scene.cameras[0];
-  const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1), NoProgress());
+  const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1),
+                                NoProgress());
   const FloatPlane signal = composed.Signal(room.marker, room.surface);
   const Film full = room.Full(camera, Options(1));
   const std::vector<Eigen::Vector2i> pixels = PixelsThatCanShow(room.surface, camera.model);
   ASSERT_GT(pixels.size(), 20u);
-  for (const Eigen::Vector2i& px : pixels) EXPECT_EQ(signal(px.x(), px.y()), full.electrons(px.x(), px.y()));
+  for (const Eigen::Vector2i& px : pixels)
+    EXPECT_EQ(signal(px.x(), px.y()), full.electrons(px.x(), px.y()));
   // Nothing outside shows the marker: no pixel was forgotten.
   Plane<uint8_t> traced(160, 120, 0);
   for (const Eigen::Vector2i& px : pixels) traced(px.x(), px.y()) = 1;
   for (size_t i = 0; i < traced.data.size(); ++i) {
-    if (traced.data[i] == 0) { EXPECT_EQ(full.marker_id[0].data[i], 0u); }
+    if (traced.data[i] == 0) {
+      EXPECT_EQ(full.marker_id[0].data[i], 0u);
+    }
   }
 }
 
 TEST(ComposedPicture, WhatIsLeftOutIsFarBelowTheNoise) {
-  // With the same seed the pictures differ only where a path meets the marker after its first surface: the difference is
-  // the light that the composition leaves out (negative: the sheeting is darker than the mask that it covers). It must be
-  // far below what a pixel's noise can show, in the mean over the pixels up to 8 px around the marker (1 % of the read
-  // noise of 20 e-) and over all others (0.1 %).
+  // With the same seed the pictures differ only where a path meets the marker after its first
+  // surface: the difference is the light that the composition leaves out (negative: the sheeting is
+  // darker than the mask that it covers). It must be far below what a pixel's noise can show, in
+  // the mean over the pixels up to 8 px around the marker (1 % of the read noise of 20 e-) and over
+  // all others (0.1 %).
   const Room room;
   for (const size_t c : {size_t{0}, size_t{4}}) {
     const CameraSpec& camera = room.scene.cameras[c];
-    const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1), NoProgress());
+    const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1),
+                                  NoProgress());
     const FloatPlane signal = composed.Signal(room.marker, room.surface);
     const Film full = room.Full(camera, Options(1));
     const Plane<uint8_t> region = Regions(room, camera);
     double difference[3] = {}, light[3] = {}, pixels[3] = {};
     for (size_t i = 0; i < signal.data.size(); ++i) {
-      difference[region.data[i]] += static_cast<double>(full.electrons.data[i]) - static_cast<double>(signal.data[i]);
+      difference[region.data[i]] +=
+          static_cast<double>(full.electrons.data[i]) - static_cast<double>(signal.data[i]);
       light[region.data[i]] += static_cast<double>(full.electrons.data[i]);
       pixels[region.data[i]] += 1.0;
     }
     for (const int r : {1, 2}) {
-      std::printf("%s, %s: left out %.4f e- of %.1f e- a pixel\n", camera.model.name.c_str(), r == 1 ? "around" : "elsewhere",
-                  difference[r] / pixels[r], light[r] / pixels[r]);
+      std::printf("%s, %s: left out %.4f e- of %.1f e- a pixel\n", camera.model.name.c_str(),
+                  r == 1 ? "around" : "elsewhere", difference[r] / pixels[r], light[r] / pixels[r]);
     }
     EXPECT_EQ(difference[0], 0.0);
     EXPECT_LT(std::abs(difference[1] / pixels[1]), 0.01 * camera.sensor.read_noise_e);
@@ -107,20 +116,24 @@ TEST(ComposedPicture, WhatIsLeftOutIsFarBelowTheNoise) {
 }
 
 TEST(ComposedPicture, IndependentSeedsAgreeWithinTheirMonteCarloError) {
-  // Composed with seed 1, full with seed 2: z = difference / sqrt(sum of the variances), over the marker's pixels, over
-  // those up to 8 px around it and over all others. The variances are upper bounds (the samples are stratified), so that
-  // z is at most standard normal; three tests with a significance of 1e-3 together.
+  // Composed with seed 1, full with seed 2: z = difference / sqrt(sum of the variances), over the
+  // marker's pixels, over those up to 8 px around it and over all others. The variances are upper
+  // bounds (the samples are stratified), so that z is at most standard normal; three tests with a
+  // significance of 1e-3 together.
   const Room room;
   const CameraSpec& camera = room.scene.cameras[0];
-  const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1), NoProgress());
+  const ComposedCamera composed(room.scene, room.rays, camera, RingChoice::kAll, Options(1),
+                                NoProgress());
   const FloatPlane signal = composed.Signal(room.marker, room.surface);
   const Film background = room.Full(camera, Options(1));
   const Film full = room.Full(camera, Options(2));
   const Plane<uint8_t> region = Regions(room, camera);
   double difference[3] = {}, variance[3] = {};
   for (size_t i = 0; i < region.data.size(); ++i) {
-    difference[region.data[i]] += static_cast<double>(signal.data[i]) - static_cast<double>(full.electrons.data[i]);
-    variance[region.data[i]] += static_cast<double>(background.variance.data[i]) + static_cast<double>(full.variance.data[i]);
+    difference[region.data[i]] +=
+        static_cast<double>(signal.data[i]) - static_cast<double>(full.electrons.data[i]);
+    variance[region.data[i]] += static_cast<double>(background.variance.data[i]) +
+                                static_cast<double>(full.variance.data[i]);
   }
   for (int r = 0; r < 3; ++r) {
     const double z = difference[r] / std::sqrt(variance[r]);

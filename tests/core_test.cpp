@@ -37,11 +37,13 @@ std::string MessageOf(Call call) {
 }
 
 CameraModel ThesisCamera() {
-  return CameraModel::FromFieldOfView("c", 640, 480, 12.18, 9.15, LookAt({1265, 600, 1109}, Vec3d::Zero(), Vec3d::UnitX()));
+  return CameraModel::FromFieldOfView("c", 640, 480, 12.18, 9.15,
+                                      LookAt({1265, 600, 1109}, Vec3d::Zero(), Vec3d::UnitX()));
 }
 
 TEST(CameraModel, FieldOfViewOfTheThesisGivesTenMicrometrePixels) {
-  // f / fx is the pixel pitch: 30 mm / fx with fx = 320 / tan(6.09 deg), i.e. 2 * 30 tan(6.09 deg) / 640 = 10.0 um.
+  // f / fx is the pixel pitch: 30 mm / fx with fx = 320 / tan(6.09 deg), i.e. 2 * 30 tan(6.09 deg)
+  // / 640 = 10.0 um.
   const CameraModel camera = ThesisCamera();
   EXPECT_NEAR(1000.0 * 30.0 / camera.fx, 10.00, 0.01);
   EXPECT_NEAR(1000.0 * 30.0 / camera.fy, 10.00, 0.01);
@@ -49,7 +51,8 @@ TEST(CameraModel, FieldOfViewOfTheThesisGivesTenMicrometrePixels) {
 
 TEST(CameraModel, PixelToRayToPixel) {
   const CameraModel camera = ThesisCamera();
-  for (const Vec2d& px : {Vec2d(0, 0), Vec2d(-0.5, 479.5), Vec2d(319.5, 239.5), Vec2d(600.25, 17.75)}) {
+  for (const Vec2d& px :
+       {Vec2d(0, 0), Vec2d(-0.5, 479.5), Vec2d(319.5, 239.5), Vec2d(600.25, 17.75)}) {
     const Ray ray = camera.RayThrough(px);
     EXPECT_LT((*camera.Project(ray.origin + 1600.0 * ray.direction) - px).norm(), 1e-9);
   }
@@ -68,7 +71,8 @@ TEST(CameraModel, ResizedKeepsTheEdgesOfThePicture) {
   const CameraModel camera = ThesisCamera();
   const CameraModel half = camera.Resized(320, 240);
   const Ray corner = camera.RayThrough({-0.5, -0.5});
-  EXPECT_LT((*half.Project(corner.origin + corner.direction * 1000.0) - Vec2d(-0.5, -0.5)).norm(), 1e-9);
+  EXPECT_LT((*half.Project(corner.origin + corner.direction * 1000.0) - Vec2d(-0.5, -0.5)).norm(),
+            1e-9);
 }
 
 TEST(Polygon, AreaCentroidInsideHull) {
@@ -88,11 +92,13 @@ TEST(MarkerSet, SixMarkersAreToldApartByTheirEdges) {
     EXPECT_EQ(set.NumberWithEdges(number + 2), number);
   }
   EXPECT_EQ(set.NumberWithEdges(9), std::nullopt);
-  EXPECT_THAT(MessageOf([&] { set.ByNumber(7); }), testing::HasSubstr("marker 7 is not in the set; expected one of 1, 2, 3"));
+  EXPECT_THAT(MessageOf([&] { set.ByNumber(7); }),
+              testing::HasSubstr("marker 7 is not in the set; expected one of 1, 2, 3"));
 }
 
 TEST(Sampler, EveryPairAndDimensionIsStratified) {
-  // A (0, 2)-sequence in base 2: the first 64 points fall one into each cell of every 2^a x 2^(6-a) grid.
+  // A (0, 2)-sequence in base 2: the first 64 points fall one into each cell of every 2^a x 2^(6-a)
+  // grid.
   constexpr int kPoints = 64;
   for (int skip = 0; skip < 3; ++skip) {
     for (int a = 0; a <= 6; ++a) {
@@ -147,7 +153,8 @@ TEST(Image, ExrKeepsIdsAndFloatsExactly) {
   EXPECT_EQ(read.Ids("id.object").data, ids.data);
   EXPECT_EQ(read.Float("electrons.Y").data, floats.data);
   EXPECT_EQ(read.attributes.at("retrolux/seed"), "17");
-  EXPECT_THAT(MessageOf([&] { static_cast<void>(read.Float("depth.Z")); }), testing::HasSubstr("no FLOAT channel 'depth.Z'; expected one of electrons.Y"));
+  EXPECT_THAT(MessageOf([&] { static_cast<void>(read.Float("depth.Z")); }),
+              testing::HasSubstr("no FLOAT channel 'depth.Z'; expected one of electrons.Y"));
 }
 
 TEST(Image, PngKeepsDigitalNumbers) {
@@ -155,7 +162,8 @@ TEST(Image, PngKeepsDigitalNumbers) {
     DigitalImage image;
     image.bits = bits;
     image.dn = Plane<uint16_t>(64, 3);
-    for (size_t i = 0; i < image.dn.data.size(); ++i) image.dn.data[i] = static_cast<uint16_t>((i * 37) % (1u << bits));
+    for (size_t i = 0; i < image.dn.data.size(); ++i)
+      image.dn.data[i] = static_cast<uint16_t>((i * 37) % (1u << bits));
     WritePng(Scratch("a.png"), image);
     EXPECT_EQ(ReadGrey(Scratch("a.png")).dn.data, image.dn.data) << bits << " bits";
   }
@@ -163,8 +171,10 @@ TEST(Image, PngKeepsDigitalNumbers) {
 
 TEST(Image, NoPictureIsAnError) {
   WriteTextFile(Scratch("text.png"), "no picture");
-  EXPECT_THAT(MessageOf([] { ReadGrey(Scratch("text.png")); }), testing::HasSubstr("expected a picture"));
-  EXPECT_THAT(MessageOf([] { ReadGrey(Scratch("absent.png")); }), testing::HasSubstr("no such file; expected a picture"));
+  EXPECT_THAT(MessageOf([] { ReadGrey(Scratch("text.png")); }),
+              testing::HasSubstr("expected a picture"));
+  EXPECT_THAT(MessageOf([] { ReadGrey(Scratch("absent.png")); }),
+              testing::HasSubstr("no such file; expected a picture"));
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
@@ -176,16 +186,19 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
   }
   EXPECT_FALSE(fs::exists(temporary));
   EXPECT_FALSE(fs::exists(Scratch("never.txt")));
-  EXPECT_THAT(MessageOf([] { WriteTextFile("/proc/no/such/place", "x"); }), testing::HasSubstr("expected a place that can be written to"));
+  EXPECT_THAT(MessageOf([] { WriteTextFile("/proc/no/such/place", "x"); }),
+              testing::HasSubstr("expected a place that can be written to"));
 }
 
 TEST(Csv, NumbersWithSourceComments) {
   WriteTextFile(Scratch("t.csv"), "# source\na_nm,b\n1,2.5\n3,-4e2\n");
   EXPECT_EQ(ReadNumberTable(Scratch("t.csv")).rows[1][1], -400.0);
   WriteTextFile(Scratch("t.csv"), "a,b\n1,nan\n");
-  EXPECT_THAT(MessageOf([] { ReadNumberTable(Scratch("t.csv")); }), testing::HasSubstr("line 2: 'nan'; expected a number"));
+  EXPECT_THAT(MessageOf([] { ReadNumberTable(Scratch("t.csv")); }),
+              testing::HasSubstr("line 2: 'nan'; expected a number"));
   WriteTextFile(Scratch("t.csv"), "a,b\n1\n");
-  EXPECT_THAT(MessageOf([] { ReadNumberTable(Scratch("t.csv")); }), testing::HasSubstr("line 2: 1 cells; expected 2 (a, b)"));
+  EXPECT_THAT(MessageOf([] { ReadNumberTable(Scratch("t.csv")); }),
+              testing::HasSubstr("line 2: 1 cells; expected 2 (a, b)"));
 }
 
 TEST(JsonReader, ErrorsNamePlaceFoundAndExpected) {
@@ -198,10 +211,14 @@ TEST(JsonReader, ErrorsNamePlaceFoundAndExpected) {
   };
   const auto spp = [](JsonReader& json) { json.Integer("spp", 1, 100); };
   EXPECT_EQ(read(R"({"spp": 5} // comment)", spp), "no error");
-  EXPECT_EQ(read(R"({"spp": -5})", spp), "s.json: /spp: found number -5; expected a number from 1 to 100");
-  EXPECT_EQ(read(R"({"spp": "5"})", spp), "s.json: /spp: found string \"5\"; expected a number from 1 to 100");
-  EXPECT_EQ(read(R"({"spp": 2.5})", spp), "s.json: /spp: found number 2.5; expected a whole number from 1 to 100");
-  EXPECT_EQ(read(R"({"spp": 5, "ssp": 1})", spp), "s.json: /: found the unknown key 'ssp'; expected 'spp', perhaps");
+  EXPECT_EQ(read(R"({"spp": -5})", spp),
+            "s.json: /spp: found number -5; expected a number from 1 to 100");
+  EXPECT_EQ(read(R"({"spp": "5"})", spp),
+            "s.json: /spp: found string \"5\"; expected a number from 1 to 100");
+  EXPECT_EQ(read(R"({"spp": 2.5})", spp),
+            "s.json: /spp: found number 2.5; expected a whole number from 1 to 100");
+  EXPECT_EQ(read(R"({"spp": 5, "ssp": 1})", spp),
+            "s.json: /: found the unknown key 'ssp'; expected 'spp', perhaps");
   EXPECT_EQ(read(R"({})", spp), "s.json: /: found no key 'spp'; expected 'spp'");
   EXPECT_THAT(read(R"({"spp": NaN})", spp), testing::HasSubstr("line 1, column"));
   EXPECT_THAT(read(R"({"spp": 1e999})", spp), testing::HasSubstr("expected finite numbers"));
@@ -211,7 +228,11 @@ TEST(Parallel, AllStepsOnceAndErrorsComeThrough) {
   std::vector<int> steps(1000, 0);
   ParallelFor(1000, [&](int64_t i) { ++steps[static_cast<size_t>(i)]; });
   EXPECT_THAT(steps, testing::Each(1));
-  EXPECT_THROW(ParallelFor(10, [](int64_t i) { if (i == 7) throw InputError("seven"); }), InputError);
+  EXPECT_THROW(ParallelFor(10,
+                           [](int64_t i) {
+                             if (i == 7) throw InputError("seven");
+                           }),
+               InputError);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-// Does each JSON file that the program writes, and each that it comes with, keep to its published schema?
+// Does each JSON file that the program writes, and each that it comes with, keep to its schema?
 //     node schemas_test.mjs RETROLUX_BINARY [STUDY_FOLDER]
-// Makes small outputs in a folder of its own under TMPDIR, removed at the end; with the folder of a finished marker
-// study, that is checked instead of a new small one. The schema of a file is scenes/schema/NAME.schema.json for
-// "schema": "retrolux/NAME". Prints a line for each violation; exit codes: 0 good, 1 violations, 2 not to be run.
+// Makes small outputs in a folder of its own under TMPDIR, removed at the end; with the folder of a
+// finished marker study, that is checked instead of a new small one. The schema of a file that says
+// "schema": "retrolux/NAME" is scenes/schema/NAME.schema.json. Prints a line for each violation.
+// Exit codes: 0 good, 1 violations, 2 not to be run.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
@@ -22,7 +23,8 @@ function leave(message) {
 
 function loadValidator() {
   try {
-    return createRequire(path.join(ROOT, 'analysis', 'report', 'package.json'))('ajv/dist/2020').default;
+    const require = createRequire(path.join(ROOT, 'analysis', 'report', 'package.json'));
+    return require('ajv/dist/2020').default;
   } catch {
     return leave('ajv is not installed (npm ci in analysis/report); run scripts/setup.sh');
   }
@@ -42,32 +44,41 @@ const withoutComments = (text) =>
   text.replace(/"(?:[^"\\]|\\.)*"|\/\/[^\n]*|\/\*[\s\S]*?\*\//g, (m) => (m[0] === '"' ? m : ' '));
 
 /**
- * Of a value that fits none of several alternatives, only the errors of the one it is meant to be: where types and
- * constants fit, with the fewest errors. If several are as near, one error that names them all.
+ * Of a value that fits none of several alternatives, only the errors of the one it is meant to be:
+ * where types and constants fit, with the fewest errors. If several are as near, one error that
+ * names them all.
  */
 function withoutOtherAlternatives(errors) {
-  let left = errors;
-  // ajv lists the errors of the alternatives before the oneOf that failed, so the innermost come first.
-  for (const whole of errors.filter((e) => e.keyword === 'oneOf' && e.params.passingSchemas === null)) {
-    const at = (e) => e.instancePath === whole.instancePath;
-    const below = (e) => at(e) || e.instancePath.startsWith(`${whole.instancePath}/`);
+  // Beside these two stands what failed.
+  let left = errors.filter((e) => e.keyword !== 'if' && e.keyword !== 'propertyNames');
+  // ajv lists the errors of the alternatives before the oneOf that failed: the innermost first.
+  const noneFits = (e) => e.keyword === 'oneOf' && e.params.passingSchemas === null;
+  for (const whole of errors.filter(noneFits)) {
+    const place = whole.instancePath;
+    const below = (e) => e.instancePath === place || e.instancePath.startsWith(`${place}/`);
     const alternatives = new Map();
-    for (const e of left.filter((e) => below(e) && e.schemaPath.startsWith(`${whole.schemaPath}/`))) {
+    for (const e of left) {
+      if (!below(e) || !e.schemaPath.startsWith(`${whole.schemaPath}/`)) continue;
       const number = e.schemaPath.slice(whole.schemaPath.length + 1).split('/')[0];
       alternatives.set(number, [...(alternatives.get(number) ?? []), e]);
     }
-    const of = [...alternatives.values()];
+    const all = [...alternatives.values()];
     const other = (e) =>
-      (e.keyword === 'type' && at(e)) || (e.keyword === 'const' && e.instancePath === `${whole.instancePath}/type`);
-    const meant = of.filter((list) => !list.some(other));
+      (e.keyword === 'type' && e.instancePath === place) ||
+      (e.keyword === 'const' && e.instancePath === `${place}/type`);
+    const meant = all.filter((list) => !list.some(other));
     const fewest = Math.min(...meant.map((list) => list.length));
     const nearest = meant.filter((list) => list.length === fewest);
-    const dropped = new Set([whole, ...of.flat()]);
-    const referred = left.some((e) => below(e) && !dropped.has(e)); // of an alternative that is a $ref
+    const dropped = new Set([whole, ...all.flat()]);
     left = left.filter((e) => !dropped.has(e));
-    if (nearest.length === 1) left.push(...nearest[0]);
-    else if (nearest.length > 1) left.push({ ...nearest[0][0], message: nearest.map((list) => list[0].message).join(' or ') });
-    else if (!referred) left.push(whole);
+    if (nearest.length === 1) {
+      left.push(...nearest[0]);
+    } else if (nearest.length > 1) {
+      const messages = new Set(nearest.map((list) => list[0].message));
+      left.push({ ...nearest[0][0], message: [...messages].join(' or ') });
+    } else if (!left.some(below)) {
+      left.push(whole); // else an alternative that is a $ref tells more
+    }
   }
   return left;
 }
@@ -75,7 +86,11 @@ function withoutOtherAlternatives(errors) {
 function describe(error) {
   const { params } = error;
   const detail =
-    params.additionalProperty ?? params.allowedValues?.join(', ') ?? JSON.stringify(params.allowedValue) ?? '';
+    params.additionalProperty ??
+    params.allowedValues?.join(', ') ??
+    JSON.stringify(params.allowedValue) ??
+    error.propertyName ??
+    '';
   return `${error.instancePath || '/'}: ${error.message}${detail === '' ? '' : ` (${detail})`}`;
 }
 
@@ -87,7 +102,7 @@ function loadSchemas() {
     try {
       const schema = JSON.parse(fs.readFileSync(path.join(SCHEMAS, file), 'utf8'));
       if (!file.endsWith(ENDING) || schema.$id !== name || schema.properties.schema.const !== name)
-        violations.push(`${file}: $id and properties/schema should say what the file's name says, "${name}"`);
+        violations.push(`${file}: $id and properties/schema should be "${name}", as its file`);
       schemas.set(name, { schema, validate: ajv.compile(schema) });
     } catch (error) {
       violations.push(`${file}: ${error.message}`);
@@ -96,20 +111,23 @@ function loadSchemas() {
   return schemas;
 }
 
-/** The value keeps to its schema, and the schema is no sieve: it refuses the same with a key more or a key less. */
+/** The value keeps to its schema, which is no sieve: it refuses a key more and a key less. */
 function checkDocument(schemas, name, value) {
   const entry = schemas.get(value?.schema);
   if (!entry) {
-    violations.push(`${name}: /schema: no schema is published for ${JSON.stringify(value?.schema)}`);
+    const found = JSON.stringify(value?.schema);
+    violations.push(`${name}: /schema: no schema is published for ${found}`);
     return;
   }
   const { schema, validate } = entry;
   checked.set(value.schema, (checked.get(value.schema) ?? 0) + 1);
   if (!validate(value)) {
-    for (const error of withoutOtherAlternatives(validate.errors)) violations.push(`${name}: ${describe(error)}`);
+    const errors = withoutOtherAlternatives(validate.errors);
+    violations.push(...errors.map((error) => `${name}: ${describe(error)}`));
     return;
   }
-  if (validate({ ...value, no_such_key: 0 })) violations.push(`${value.schema}: allows unknown keys in ${name}`);
+  if (validate({ ...value, no_such_key: 0 }))
+    violations.push(`${value.schema}: allows unknown keys in ${name}`);
   for (const key of schema.required) {
     const { [key]: _, ...rest } = value;
     if (validate(rest)) violations.push(`${value.schema}: allows ${name} without '${key}'`);
@@ -127,7 +145,7 @@ function checkText(schemas, name, text) {
   checkDocument(schemas, name, value);
 }
 
-/** All JSON files below a folder; at least one. */
+/** All JSON files below a folder; how many there are. */
 function checkFolder(schemas, folder, name) {
   const files = fs.readdirSync(folder, { withFileTypes: true });
   let found = 0;
@@ -145,9 +163,11 @@ function checkFolder(schemas, folder, name) {
 
 /** Standard output of the program, or null and a violation. */
 function run(work, ...args) {
-  const done = spawnSync(binary, args, { cwd: work, encoding: 'utf8', timeout: LIMIT_MS, maxBuffer: 1 << 26 });
+  const options = { cwd: work, encoding: 'utf8', timeout: LIMIT_MS, maxBuffer: 1 << 26 };
+  const done = spawnSync(binary, args, options);
   if (done.status === 0) return done.stdout;
-  const why = done.error?.message ?? `exit code ${done.status}: ${done.stderr.trim().split('\n').at(-1)}`;
+  const lastLine = done.stderr?.trim().split('\n').at(-1);
+  const why = done.error?.message ?? `exit code ${done.status ?? done.signal}: ${lastLine}`;
   violations.push(`retrolux ${args.join(' ')}: ${why}`);
   return null;
 }
@@ -156,9 +176,10 @@ function checkOutputs(schemas, work) {
   run(work, 'render', 'oval', '--size', '64x48', '--spp', '1', '--out', 'small');
   run(work, 'render', 'oval', '--size', '64x48', '--ids-only', '--out', 'ids');
   run(work, 'render', 'oval', '--spp', '1', '--out', 'full'); // large enough to identify markers
-  const room = ['--size', '32x24', '--spp', '1', '--camera', 'back-left,front-middle', '--pose', 'start'];
-  run(work, 'render', 'ct-room', ...room, '--out', 'room');
-  for (const scene of ['oval', 'ct-room']) run(work, 'scene', 'export', scene, '--out', `scene-${scene}`);
+  const two = ['--camera', 'back-left,front-middle', '--pose', 'start'];
+  run(work, 'render', 'ct-room', '--size', '32x24', '--spp', '1', ...two, '--out', 'room');
+  for (const scene of ['oval', 'ct-room'])
+    run(work, 'scene', 'export', scene, '--out', `scene-${scene}`);
   const pictures = ['small/camera.png', 'full/camera.png', 'room/back-left.png'];
   run(work, 'classify', ...pictures, '--out', 'detections.json');
   if (!givenStudy) {
@@ -174,12 +195,14 @@ function checkMaterials(schemas) {
   const plain = (node) => {
     if (Array.isArray(node)) return node.map(plain);
     if (node === null || typeof node !== 'object') return node;
-    const keys = Object.keys(node).filter((key) => key !== 'description' || typeof node[key] !== 'string');
-    return Object.fromEntries(keys.sort().map((key) => [key, plain(node[key])]));
+    const keys = Object.keys(node).sort();
+    return Object.fromEntries(
+      keys.filter((key) => key !== 'description').map((key) => [key, plain(node[key])]),
+    );
   };
   const types = (name) => {
-    const of = schemas.get(name)?.schema.$defs.material.oneOf.filter((type) => type.properties.type) ?? [];
-    return of.map((type) => JSON.stringify(plain(type)));
+    const all = schemas.get(name)?.schema.$defs.material.oneOf ?? [];
+    return all.filter((type) => type.properties.type).map((type) => JSON.stringify(plain(type)));
   };
   const [library, scene] = [types('retrolux/materials-1'), types('retrolux/scene-1')];
   for (const type of library.filter((t) => !scene.includes(t)))
@@ -198,11 +221,16 @@ try {
 } finally {
   fs.rmSync(work, { recursive: true, force: true });
 }
-if (givenStudy && (!fs.existsSync(givenStudy) || checkFolder(schemas, givenStudy, path.basename(givenStudy)) === 0))
-  violations.push(`${process.argv[3]}: no JSON file of a study`);
-for (const name of schemas.keys()) if (!checked.has(name)) violations.push(`${name}: no file of this schema was checked`);
+if (givenStudy) {
+  const there = fs.statSync(givenStudy, { throwIfNoEntry: false })?.isDirectory();
+  const found = there ? checkFolder(schemas, givenStudy, path.basename(givenStudy)) : 0;
+  if (found === 0) violations.push(`${process.argv[3]}: no folder with JSON files`);
+}
+for (const name of schemas.keys())
+  if (!checked.has(name)) violations.push(`${name}: no file of this schema was checked`);
 
 for (const violation of violations) console.log(violation);
 const documents = [...checked.values()].reduce((sum, count) => sum + count, 0);
-console.log(`schemas_test: ${documents} files of ${checked.size} schemas, ${violations.length} violations`);
+const sum = `${documents} files of ${checked.size} schemas, ${violations.length} violations`;
+console.log(`schemas_test: ${sum}`);
 process.exit(violations.length > 0 ? 1 : 0);

@@ -1,5 +1,5 @@
-// Statistics for tests of random results. All seeds in the tests are fixed: a test passes always or never; the
-// significance says how surprised to be when it fails after a change.
+// Statistics for tests of random results. All seeds in the tests are fixed: a test passes always or
+// never; the significance says how surprised to be when it fails after a change.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,14 @@
 
 namespace retrolux::statistics {
 
-// Regularised upper incomplete gamma function Q(a, x) by series and continued fraction (Numerical Recipes 6.2).
+// Regularised upper incomplete gamma function Q(a, x) by series and continued fraction (Numerical
+// Recipes 6.2).
 inline double UpperGamma(double a, double x) {
   if (x <= 0.0) return 1.0;
   if (x < a + 1.0) {
     double term = 1.0 / a, sum = term;
-    for (int n = 1; n < 10000 && std::abs(term) > std::abs(sum) * 1e-15; ++n) sum += term *= x / (a + n);
+    for (int n = 1; n < 10000 && std::abs(term) > std::abs(sum) * 1e-15; ++n)
+      sum += term *= x / (a + n);
     return 1.0 - sum * std::exp(-x + a * std::log(x) - std::lgamma(a));
   }
   double b = x + 1.0 - a, c = 1e300, d = 1.0 / b, h = d;
@@ -30,9 +32,10 @@ inline double UpperGamma(double a, double x) {
   return std::exp(-x + a * std::log(x) - std::lgamma(a)) * h;
 }
 
-// The probability of counts that lie at least this far from the expected ones. Neighbouring cells are pooled until
-// each expects five or more.
-inline double ChiSquarePValue(const std::vector<double>& observed, const std::vector<double>& expected) {
+// The probability of counts that lie at least this far from the expected ones. Neighbouring cells
+// are pooled until each expects five or more.
+inline double ChiSquarePValue(const std::vector<double>& observed,
+                              const std::vector<double>& expected) {
   std::vector<std::pair<double, double>> cells;  // observed, expected
   bool open = false;
   for (size_t i = 0; i < observed.size(); ++i) {
@@ -54,9 +57,13 @@ inline double ChiSquarePValue(const std::vector<double>& observed, const std::ve
 }
 
 // Two-sided probability of a standard normal number at least this far from zero.
-inline double NormalPValue(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
+inline double NormalPValue(double z) {
+  return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
 
 // Significance of each of `tests` tests, so that all of them together have `significance` (Sidak).
-inline double Sidak(double significance, double tests) { return 1.0 - std::pow(1.0 - significance, 1.0 / tests); }
+inline double Sidak(double significance, double tests) {
+  return 1.0 - std::pow(1.0 - significance, 1.0 / tests);
+}
 
 }  // namespace retrolux::statistics
