@@ -110,8 +110,7 @@ class PoseStudy {
     Clock::time_point clock = Clock::now();
     MarkerStudy::Times times;
     int64_t composed = 0, retraced = 0;
-    const MarkerSpec spec{"marker", marker, "mask", marker_grid::Point(position)};
-    const PlacedMarker placed = PlaceMarker(scene_, spec, 1);
+    const PlacedMarker placed = Place(marker, position);
     const MarkerSurface surface = SampleMarkerSurface(rays_, placed);
     std::vector<PictureResult> results;
     for (size_t c = 0; c < cameras_.size(); ++c) {
@@ -170,8 +169,7 @@ class PoseStudy {
                                                                      {first_miss, "first miss"}};
       for (const auto& [result, kind] : chosen) {
         if (!result) continue;
-        const PlacedMarker placed = PlaceMarker(
-            scene_, {"marker", result->marker, "mask", marker_grid::Point(result->position)}, 1);
+        const PlacedMarker placed = Place(result->marker, result->position);
         const FloatPlane signal =
             cameras_[static_cast<size_t>(c)]->Signal(placed, SampleMarkerSurface(rays_, placed));
         KeepPicture(Expose(*cameras_[static_cast<size_t>(c)], signal, *result), *result, kind);
@@ -180,6 +178,12 @@ class PoseStudy {
   }
 
  private:
+  PlacedMarker Place(int marker, const GridPosition& position) const {
+    MarkerSpec spec{"marker", marker, "mask", marker_grid::Point(position)};
+    spec.material = study_.options.material;
+    return PlaceMarker(scene_, spec, 1);
+  }
+
   DigitalImage Expose(const ComposedCamera& camera, const FloatPlane& signal,
                       const PictureResult& result) const {
     return ExposeSensor(signal, camera.Camera().sensor, camera.ExposureSeconds(),
@@ -293,7 +297,13 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
   MarkerStudy study;
   study.options = options;
   study.poses = options.poses;
-  for (const CameraSpec& camera : scene.cameras) study.cameras.push_back(camera.model.name);
+  for (const CameraSpec& camera : scene.cameras) {
+    study.cameras.push_back(camera.model.name);
+    study.camera_centres.push_back(camera.model.Centre());
+  }
+  Scene room = scene;
+  room.UseMaterial(options.material);
+  room.exposure.marker_material = options.material;
 
   std::vector<GridPosition> positions = Positions(options.stride);
   const size_t own_half = positions.size();
@@ -306,7 +316,7 @@ MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options
     const std::string& name = study.poses[static_cast<size_t>(pose)].name;
     Clock::time_point clock = Clock::now();
     progress.Begin("backgrounds, " + name, background_pixels, "px");
-    PoseStudy pose_study(scene, study, pose, folder, progress);
+    PoseStudy pose_study(room, study, pose, folder, progress);
     progress.End();
     study.times.background += Since(clock);
 

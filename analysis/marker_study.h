@@ -42,6 +42,7 @@ enum class Keep { kAll, kMisses, kSamples };
 struct MarkerStudyOptions {
   std::vector<int> markers = {2, 3};
   std::vector<Pose> poses;
+  std::string material = "retro_bead";  // of the markers, in the scene or the library
   int stride = 1;  // only every stride-th row and column; 1 is the study, more is a quick look
   int samples_per_pixel = 32;
   uint64_t seed = 1;
@@ -62,6 +63,7 @@ struct MarkerStudy {
   MarkerStudyOptions options;
   std::vector<Pose> poses;
   std::vector<std::string> cameras;
+  std::vector<Vec3d> camera_centres;
   std::vector<PictureResult> results;   // of the half y >= 0
   std::vector<PictureResult> mirrored;  // of the mirrored positions that were checked
   std::vector<KeptPicture> kept;

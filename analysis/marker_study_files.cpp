@@ -104,6 +104,7 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
           {"seed", study.options.seed},
           {"noise_seed", study.options.noise_seed},
           {"method", "edges"},
+          {"material", study.options.material},
           {"sets", sets},
           {"outcomes", reasons},
           {"cameras", LastHits(study)},

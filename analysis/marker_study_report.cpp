@@ -270,6 +270,34 @@ class StudyReport {
     report_.Table("Wholly visible markers, all markers and poses together",
                   {"camera", "visible", "identified", "last hit / deg"}, rows);
     ReasonBars();
+    FrontAndBack();
+  }
+
+  // What geometry alone asks of a marker that a front and a back camera are to identify both.
+  void FrontAndBack() {
+    double smallest_deg = 180.0;
+    for (size_t f = 0; f < study_.cameras.size(); ++f) {
+      for (size_t b = 0; b < study_.cameras.size(); ++b) {
+        if (!study_.cameras[f].starts_with("front") || !study_.cameras[b].starts_with("back"))
+          continue;
+        const Vec3d& front = study_.camera_centres[f];
+        const Vec3d& back = study_.camera_centres[b];
+        smallest_deg = std::min(
+            smallest_deg, DegFromRad(std::acos(front.dot(back) / (front.norm() * back.norm()))));
+      }
+    }
+    double last = 0.0;
+    for (const PictureResult& r : study_.results) {
+      if (r.outcome == Outcome::kHit) last = std::max(last, r.incidence_deg);
+    }
+    report_.Paragraph(
+        fmt::format("Seen from the scan point a front and a back camera stand **{:.1f}°** apart or "
+                    "more. A marker there that both are to identify "
+                    "is seen by one of them at **{:.1f}°** incidence or more, however it is "
+                    "turned; the most oblique hit of this study is at "
+                    "**{:.1f}°**. Sheeting that keeps more of its retro-reflection at large "
+                    "entrance angles (`--material`) moves that limit.",
+                    smallest_deg, 0.5 * smallest_deg, last));
   }
 
   void ReasonBars() {
@@ -311,15 +339,13 @@ class StudyReport {
   }
 
   std::string PictureBytes(const std::string& file) const {
-    const DigitalImage image = ReadGrey(folder_ / file);
-    std::vector<uint8_t> rgb;
+    DigitalImage image = ReadGrey(folder_ / file);
     const double full_scale = (1 << image.bits) - 1;
-    for (const uint16_t dn : image.dn.data) {
-      const auto level =
-          static_cast<uint8_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
-      rgb.insert(rgb.end(), {level, level, level});
+    for (uint16_t& dn : image.dn.data) {
+      dn = static_cast<uint16_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
     }
-    return EncodeRgbPng(image.dn.width, image.dn.height, rgb);
+    image.bits = 8;
+    return EncodeGreyPng(image);
   }
 
   void Symmetry() {

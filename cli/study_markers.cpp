@@ -131,6 +131,9 @@ void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run) {
   sub->add_option("--spp", command->study.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, 1 << 16))
       ->capture_default_str();
+  sub->add_option("--material", command->study.material,
+                  "what the markers are made of, a material of the scene or the library")
+      ->capture_default_str();
   sub->add_option("--stride", command->study.stride,
                   "only every N-th row and column of the grid, for a quick look")
       ->check(CLI::Range(1, 14))

@@ -171,17 +171,18 @@ std::string EncodePng(const OIIO::ImageSpec& spec, OIIO::TypeDesc format, const 
 
 }  // namespace
 
-void WritePng(const fs::path& file, const DigitalImage& image) {
+std::string EncodeGreyPng(const DigitalImage& image) {
   const bool wide = image.bits > 8;
   OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1,
                        wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
   spec.attribute("png:compressionLevel", 1);
-  if (wide) {
-    WriteTextFile(file, EncodePng(spec, OIIO::TypeUInt16, image.dn.data.data()));
-    return;
-  }
+  if (wide) return EncodePng(spec, OIIO::TypeUInt16, image.dn.data.data());
   const std::vector<uint8_t> bytes(image.dn.data.begin(), image.dn.data.end());
-  WriteTextFile(file, EncodePng(spec, OIIO::TypeUInt8, bytes.data()));
+  return EncodePng(spec, OIIO::TypeUInt8, bytes.data());
+}
+
+void WritePng(const fs::path& file, const DigitalImage& image) {
+  WriteTextFile(file, EncodeGreyPng(image));
 }
 
 DigitalImage ReadGrey(const fs::path& file) {

@@ -42,6 +42,9 @@ DigitalImage ReadGrey(const std::filesystem::path& file);
 void WriteRgbPng(const std::filesystem::path& file, int width, int height,
                  const std::vector<uint8_t>& rgb);
 
+// The PNG file of a grey picture in memory, as WritePng writes it.
+std::string EncodeGreyPng(const DigitalImage& image);
+
 // The PNG file of an RGB picture in memory, for pages that carry their pictures.
 std::string EncodeRgbPng(int width, int height, const std::vector<uint8_t>& rgb);
 

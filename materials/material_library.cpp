@@ -10,7 +10,9 @@ JsonReader Library() {
   static const JsonReader library = JsonReader::FromFile(DataPath("materials/data/library.json"));
   JsonReader json = library;
   json.Schema("retrolux/materials-1");
-  return json.Child("materials");
+  JsonReader materials = json.Child("materials");
+  json.Finish();
+  return materials;
 }
 
 }  // namespace

@@ -142,8 +142,9 @@ std::shared_ptr<const Bsdf> MakeRetroreflector(JsonReader& json) {
   float total = body.Max();
   for (const Lobe& lobe : lobes) total += lobe.albedo / passes;
   if (total > 1.0f) {
-    json.Fail(fmt::format("lobes and body that reflect {:.3f} of the light", total),
-              "albedos and diffuse_reflectance that sum to at most 1");
+    json.Fail(
+        fmt::format("lobes and body that reflect {:.3f} of the light", total),
+        "a sum of albedo / (share that passes the cover) and diffuse_reflectance of at most 1");
   }
   return std::make_shared<Retroreflector>(std::move(lobes), std::move(weight), std::move(body),
                                           std::move(cover));

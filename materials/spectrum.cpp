@@ -83,7 +83,7 @@ Spectrum ReadSpectrum(JsonReader& json, const std::string& key, double min, doub
   if (spectrum.Max() > static_cast<float>(max) || spectrum.Min() < static_cast<float>(min)) {
     throw InputError::At(file, "",
                          fmt::format("values from {} to {}", spectrum.Min(), spectrum.Max()),
-                         fmt::format("numbers from {} to {}", min, max));
+                         fmt::format("each a number from {} to {}", min, max));
   }
   return spectrum;
 }

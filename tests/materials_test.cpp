@@ -669,12 +669,13 @@ TEST(BsdfFactory, ErrorsNamePlaceFoundAndExpected) {
 }
 
 TEST(BsdfFactory, AlbedosAboveOneAreRefused) {
-  EXPECT_EQ(MessageOf([] {
-              FromJson(R"({"type": "retroreflector", "diffuse_reflectance": 0.5, "ior": 1.0,
+  EXPECT_EQ(
+      MessageOf([] {
+        FromJson(R"({"type": "retroreflector", "diffuse_reflectance": 0.5, "ior": 1.0,
                            "lobes": [{"roughness": 0.01, "albedo": 0.4}, {"roughness": 0.1, "albedo": 0.3}]})");
-            }),
-            "m.json: /: found lobes and body that reflect 1.200 of the light; expected albedos and "
-            "diffuse_reflectance that sum to at most 1");
+      }),
+      "m.json: /: found lobes and body that reflect 1.200 of the light; expected a sum of albedo "
+      "/ (share that passes the cover) and diffuse_reflectance of at most 1");
 }
 
 TEST(BsdfFactory, TablesAreCheckedLikeNumbers) {
@@ -697,7 +698,8 @@ TEST(BsdfFactory, TablesAreCheckedLikeNumbers) {
   EXPECT_THAT(MessageOf([] {
                 FromJson(R"({"type": "diffuse", "reflectance": "materials/data/absent.csv"})");
               }),
-              testing::HasSubstr("materials/data/absent.csv: data file not found"));
+              testing::HasSubstr(
+                  "m.json: /reflectance: found no table \"materials/data/absent.csv\"; expected"));
 }
 
 TEST(MaterialLibrary, UnknownNamesListTheKnown) {
