@@ -151,6 +151,7 @@ class PoseStudy {
     for (int c = 0; c < static_cast<int>(cameras_.size()); ++c) {
       const PictureResult* frontal = nullptr;
       const PictureResult* oblique = nullptr;
+      const PictureResult* rim = nullptr;
       const PictureResult* last_hit = nullptr;
       const PictureResult* first_miss = nullptr;
       const auto closer = [](const PictureResult& a, const PictureResult* b, double deg) {
@@ -160,11 +161,13 @@ class PoseStudy {
         if (r.camera != c || r.visible_fraction < 0.999) continue;
         if (closer(r, frontal, 0.0)) frontal = &r;
         if (closer(r, oblique, 45.0)) oblique = &r;
+        if (closer(r, rim, 80.0)) rim = &r;
         if (r.outcome == Outcome::kHit && closer(r, last_hit, 90.0)) last_hit = &r;
         if (r.outcome != Outcome::kHit && closer(r, first_miss, 0.0)) first_miss = &r;
       }
       const std::pair<const PictureResult*, const char*> chosen[] = {{frontal, "frontal"},
                                                                      {oblique, "oblique"},
+                                                                     {rim, "rim"},
                                                                      {last_hit, "last hit"},
                                                                      {first_miss, "first miss"}};
       for (const auto& [result, kind] : chosen) {

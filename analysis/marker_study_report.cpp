@@ -335,7 +335,7 @@ class StudyReport {
                                     "dark levels raised (gamma 2.2) to show the "
                                     "mask",
                                     study_.poses.front().name),
-                        pictures, 4);
+                        pictures, 5);
   }
 
   std::string PictureBytes(const std::string& file) const {
