@@ -56,7 +56,8 @@ struct MarkerStudyOptions {
 struct KeptPicture {
   PictureResult result;
   std::string file;  // relative to the study's folder
-  std::string kind;  // "frontal", "oblique", "rim", "last hit", "first miss", "" for --keep all|misses
+  std::string
+      kind;  // "frontal", "oblique", "rim", "last hit", "first miss", "" for --keep all|misses
 };
 
 struct MarkerStudy {
