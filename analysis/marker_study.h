@@ -7,6 +7,7 @@
 #include "analysis/composed_picture.h"
 #include "analysis/marker_grid.h"
 #include "classifier/edges.h"
+#include "core/task_manifest.h"
 
 namespace retrolux {
 
@@ -68,11 +69,13 @@ struct MarkerStudy {
   std::vector<PictureResult> results;   // of the half y >= 0
   std::vector<PictureResult> mirrored;  // of the mirrored positions that were checked
   std::vector<KeptPicture> kept;
-  // What took how long, s: wall time of the backgrounds and of the pictures, and the time of all
-  // threads in the parts of a picture.
+  TaskReport tasks;  // what was done before this run, and what by it
+  // What took how long in this run, s: wall time of the backgrounds and of the pictures, and the
+  // time of all threads in the parts of a picture.
   struct Times {
     double background = 0.0, pictures = 0.0;
     double geometry = 0.0, trace = 0.0, sensor = 0.0, identify = 0.0, write = 0.0;
+    Times& operator+=(const Times& other);
   } times;
   int64_t composed = 0;           // pictures that were made (the rest no ray sees)
   int64_t mirrored_composed = 0;  // of the mirrored positions
@@ -82,8 +85,10 @@ struct MarkerStudy {
 // Poses at every `step_mm` from the first to the last pose along z, for `--poses scan`.
 std::vector<Pose> ScanPoses(const Scene& scene, double step_mm);
 
-// Kept pictures go to folder/pictures. The scene must have an object "mask" and cameras whose names
-// begin with "front" or "back" and come in -left and -right pairs; InputError if not.
+// One task of a TaskManifest in `folder` for each camera in each pose (marker_study_task.h): what
+// an earlier run with the same options has done there is not done again. Kept pictures go to
+// folder/pictures. The scene must have an object "mask" and cameras whose names begin with "front"
+// or "back" and come in -left and -right pairs; InputError if not.
 MarkerStudy RunMarkerStudy(const Scene& scene, const MarkerStudyOptions& options,
                            const std::filesystem::path& folder, Progress& progress);
 

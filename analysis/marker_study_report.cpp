@@ -365,16 +365,15 @@ class StudyReport {
     report_.Paragraph(fmt::format("`{}`", command));
     const MarkerStudy::Times& t = study_.times;
     report_.Paragraph(fmt::format(
-        "{} samples per pixel, seed {}, noise seed {}. Backgrounds {:.0f} s, pictures {:.0f} s; "
-        "{:.0f} pixels traced again for a "
-        "picture on average. Time of all threads: geometry {:.0f} s, tracing {:.0f} s, sensor "
-        "{:.0f} s, identification {:.0f} s, "
-        "writing {:.0f} s.",
+        "{} samples per pixel, seed {}, noise seed {}; {:.0f} pixels traced again for a picture on "
+        "average. In this run {} tasks of {} (one camera in one pose each): backgrounds {:.0f} s, "
+        "pictures {:.0f} s; time of all threads: geometry {:.0f} s, tracing {:.0f} s, sensor "
+        "{:.0f} s, identification {:.0f} s, writing {:.0f} s.",
         study_.options.samples_per_pixel, study_.options.seed, study_.options.noise_seed,
-        t.background, t.pictures,
         static_cast<double>(study_.retraced_pixels) /
             static_cast<double>(std::max<int64_t>(1, study_.composed + study_.mirrored_composed)),
-        t.geometry, t.trace, t.sensor, t.identify, t.write));
+        study_.tasks.done_now, study_.tasks.done_before + study_.tasks.done_now, t.background,
+        t.pictures, t.geometry, t.trace, t.sensor, t.identify, t.write));
     for (const char* file : {"hits.csv", "coverage.csv", "summary.json"})
       report_.Attachment(file, ReadTextFile(folder_ / file));
   }

@@ -104,6 +104,14 @@ json PictureJson(const LabelledPicture& picture) {
   return {{"label", picture.label}, {"png", Base64(picture.png_bytes)}};
 }
 
+json LegendJson(const std::vector<OvalCategory>& categories) {
+  json legend = json::array();
+  for (const OvalCategory& category : categories) {
+    legend.push_back({{"label", category.label}, {"colour", category.colour}});
+  }
+  return legend;
+}
+
 // `left` and `right` as rows of the unrolled map: from the left side over the top to the right
 // side.
 json MapRows(const OvalMap& map, const OvalGrid& grid, int categories) {
@@ -224,18 +232,16 @@ void Report::Picture(const std::string& caption, const std::string& png_bytes) {
 }
 
 void Report::PictureGrid(const std::string& caption, const std::vector<LabelledPicture>& pictures,
-                         int columns) {
+                         int columns, const std::vector<OvalCategory>& legend) {
   json items = json::array();
   for (const LabelledPicture& picture : pictures) items.push_back(PictureJson(picture));
-  Add("pictures", {{"caption", caption}, {"columns", columns}, {"items", std::move(items)}});
+  json block = {{"caption", caption}, {"columns", columns}, {"items", std::move(items)}};
+  if (!legend.empty()) block["legend"] = LegendJson(legend);
+  Add("pictures", std::move(block));
 }
 
 void Report::OvalMaps(const std::string& caption, const std::vector<OvalCategory>& categories,
                       const std::vector<OvalMap>& maps, const OvalGrid& grid) {
-  json legend = json::array();
-  for (const OvalCategory& category : categories) {
-    legend.push_back({{"label", category.label}, {"colour", category.colour}});
-  }
   json items = json::array();
   for (const OvalMap& map : maps) {
     items.push_back({{"label", map.label},
@@ -243,7 +249,7 @@ void Report::OvalMaps(const std::string& caption, const std::vector<OvalCategory
                      {"values", MapRows(map, grid, static_cast<int>(categories.size()))}});
   }
   Add("oval_maps", {{"caption", caption},
-                    {"categories", std::move(legend)},
+                    {"categories", LegendJson(categories)},
                     {"maps", std::move(items)},
                     {"grid",
                      {{"rows", grid.rows},

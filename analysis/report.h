@@ -75,8 +75,9 @@ class Report {
              const std::vector<std::vector<std::string>>& rows);
   // Pictures open in a viewer with zoom, never smoothed there.
   void Picture(const std::string& caption, const std::string& png_bytes);
+  // `legend`: what colours in the pictures mean.
   void PictureGrid(const std::string& caption, const std::vector<LabelledPicture>& pictures,
-                   int columns);
+                   int columns, const std::vector<OvalCategory>& legend = {});
   // Small multiples with one legend: each map unrolled, and painted on the oval seen from above,
   // from the side (+y) and from the front (+z).
   void OvalMaps(const std::string& caption, const std::vector<OvalCategory>& categories,

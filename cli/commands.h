@@ -40,6 +40,7 @@ using Run = std::function<int()>;
 void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpMask(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
 
 // The progress bar or log that the global options ask for.

@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
   SetUpRender(app, global, run);
   SetUpScene(app, global, run);
   SetUpClassify(app, global, run);
+  SetUpMask(app, global, run);
   SetUpStudy(app, global, run);
   try {
     app.parse(argc, argv);

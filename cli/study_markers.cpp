@@ -1,12 +1,9 @@
 // retrolux study markers --out DIR
 #include <fmt/format.h>
 
-#include <chrono>
-#include <ctime>
-
 #include "analysis/marker_coverage.h"
-#include "cli/commands.h"
-#include "core/atomic_file.h"
+#include "cli/run_json.h"
+#include "cli/study.h"
 #include "scenes/scene_json.h"
 
 namespace retrolux::cli {
@@ -30,40 +27,27 @@ std::vector<Pose> ChosenPoses(const Scene& scene, const std::vector<std::string>
   return poses;
 }
 
-// "2026-11-22T10:00:00Z"
-std::string UtcNow() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
+// Of the pictures of hits.csv, those that this run has made: all tasks have the same number.
+double PicturesNow(const MarkerStudy& study) {
+  const auto tasks = static_cast<double>(study.tasks.done_before + study.tasks.done_now);
+  return static_cast<double>(study.results.size()) * static_cast<double>(study.tasks.done_now) /
+         tasks;
 }
 
-void WriteRunJson(const StudyMarkersCommand& command, const GlobalOptions& global,
-                  const MarkerStudy& study, const std::string& started, double seconds) {
+nlohmann::json Figures(const MarkerStudy& study, double seconds) {
   const MarkerStudy::Times& t = study.times;
-  const nlohmann::json run = {
-      {"schema", "retrolux/run-1"},
-      {"version", RETROLUX_VERSION},
-      {"units", "s"},
-      {"pixel_origin", "center"},
-      {"command", global.command_line},
-      {"seed", global.seed},
-      {"noise_seed", global.NoiseSeed()},
-      {"started", started},
-      {"seconds", seconds},
-      {"threads", global.threads > 0 ? global.threads : AvailableThreads()},
-      {"pictures", study.results.size()},
-      {"pictures_rendered", study.composed},
-      {"pictures_per_minute", 60.0 * static_cast<double>(study.results.size()) / seconds},
-      {"times",
-       {{"background_wall", t.background},
-        {"pictures_wall", t.pictures},
-        {"geometry", t.geometry},
-        {"trace", t.trace},
-        {"sensor", t.sensor},
-        {"identify", t.identify},
-        {"write", t.write}}}};
-  WriteTextFile(command.out / "run.json", run.dump(2) + "\n");
+  return {{"pictures", study.results.size()},
+          {"pictures_rendered", study.composed},
+          {"pictures_per_minute", 60.0 * PicturesNow(study) / seconds},
+          {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}},
+          {"times",
+           {{"background_wall", t.background},
+            {"pictures_wall", t.pictures},
+            {"geometry", t.geometry},
+            {"trace", t.trace},
+            {"sensor", t.sensor},
+            {"identify", t.identify},
+            {"write", t.write}}}};
 }
 
 std::string Text(const MarkerStudy& study, const StudyCoverage& coverage,
@@ -75,10 +59,10 @@ std::string Text(const MarkerStudy& study, const StudyCoverage& coverage,
     text += fmt::format("marker {}  {:<10} {:<10} {:6.2f} %  {:8.0f} mm2\n", set.marker, set.name,
                         set.pose, set.percent, set.area_mm2);
   }
-  return text + fmt::format("{} pictures in {:.1f} s ({:.0f} a minute)\nreport: {}",
-                            study.results.size(), seconds,
-                            60.0 * static_cast<double>(study.results.size()) / seconds,
-                            report.string());
+  text += fmt::format("{:.0f} pictures in {:.1f} s ({:.0f} a minute)", PicturesNow(study), seconds,
+                      60.0 * PicturesNow(study) / seconds);
+  const std::string tasks = study.tasks.Text();
+  return text + (tasks.empty() ? "" : "; " + tasks) + "\nreport: " + report.string();
 }
 
 int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
@@ -90,15 +74,15 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
                        : command.keep == "misses" ? Keep::kMisses
                                                   : Keep::kSamples;
   const auto progress = MakeProgress(global);
-  const std::string started = UtcNow();
-  const auto start = std::chrono::steady_clock::now();
+  const StudyRun run(global);
   const MarkerStudy study = RunMarkerStudy(scene, command.study, command.out, *progress);
+  for (const std::string& warning : study.tasks.warnings)
+    fmt::print(stderr, "retrolux: {}\n", warning);
   const StudyCoverage coverage(study);
   WriteStudyFiles(study, coverage, command.out);
   WriteStudyReport(study, coverage, command.out, global.command_line);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  WriteRunJson(command, global, study, started, seconds);
+  const double seconds = run.Seconds();
+  run.Write(command.out, Figures(study, seconds));
   nlohmann::json summary = StudySummary(study, coverage);
   summary["report"] = (command.out / "report.html").string();
   summary["seconds"] = seconds;
@@ -108,11 +92,9 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
 
 }  // namespace
 
-void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run) {
-  CLI::App* study =
-      app.add_subcommand("study", "The studies; each writes report.html, its tables and run.json");
+void SetUpStudyMarkers(CLI::App& study, const GlobalOptions& global, Run& run) {
   auto command = std::make_shared<StudyMarkersCommand>();
-  CLI::App* sub = study->add_subcommand(
+  CLI::App* sub = study.add_subcommand(
       "markers", "Where on the mask do the CT room's cameras identify markers? (thesis chapter 3)");
   sub->add_option("--out", command->out, "folder for the results")->required();
   sub->add_option("--scene", command->scene,

@@ -25,7 +25,7 @@ struct SurfaceHit {
 
 class RayScene {
  public:
-  // Builds the acceleration structure; `scene` must outlive it.
+  // Builds the acceleration structure; nothing of `scene` is needed afterwards.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
@@ -48,6 +48,20 @@ class RayScene {
   };
   void IntersectPacket(const Vec3f& origin, std::span<const Vec3f> directions,
                        std::span<PacketHit> hits) const;
+  // The nearest hits of a grid of rays from one origin, ray (x, y) along first + x step_x + y
+  // step_y: row by row the primitive (kNone: nothing) and the distance in units of the ray's
+  // direction. Traced in packets of neighbours, several times as fast as IntersectPacket's rows of
+  // small tiles.
+  struct RayGrid {
+    Vec3f origin, first, step_x, step_y;
+    int width = 0, height = 0;
+  };
+  void IntersectGrid(const RayGrid& grid, std::span<uint32_t> primitives,
+                     std::span<float> distances) const;
+  // hidden[i] = 1 if anything lies between the origin and targets[i], the last `margin` of the way
+  // (a fraction) left out. In packets; neighbours in `targets` should be neighbours in space.
+  void OccludedFrom(const Vec3f& origin, std::span<const Vec3f> targets, float margin,
+                    std::span<uint8_t> hidden) const;
   // What Intersect would have said about a packet's hit.
   SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, const PacketHit& hit) const;
 

@@ -8,7 +8,19 @@ const std::vector<BuiltInEntry>& BuiltInScenes() {
        "the CT scanner room: oval on the couch, gantry, six ring-lit cameras, three poses", CtRoom},
       {"oval", "the oval (280 x 200 x 200 mm) with all markers, one ring-lit camera at 1600 mm",
        OvalScene},
+      {"face",
+       "a face mask (76,459 mm2) with all markers, three ring-lit cameras at 2000 mm: front, "
+       "oblique, side",
+       FaceScene},
+      {"body",
+       "a body mask (450 x 360 mm) with all markers, two ring-lit cameras at 2400 mm: above, "
+       "oblique",
+       BodyScene},
       {"sphere", "a sphere of radius 100 mm, one ring-lit camera at 1600 mm", SphereScene},
+      {"vault",
+       "the treatment vault as the thesis chose to build it: face mask with all markers, both "
+       "nozzles, nine ring-lit cameras on two rigs",
+       VaultRoom},
   };
   return scenes;
 }

@@ -21,5 +21,8 @@ Scene BuiltInScene(const std::string& name);
 Scene CtRoom();
 Scene OvalScene();
 Scene SphereScene();
+Scene FaceScene();
+Scene BodyScene();
+Scene VaultRoom();
 
 }  // namespace retrolux

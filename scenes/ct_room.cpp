@@ -3,15 +3,13 @@
 // to 3.4); everything that its lost figures held (gantry, couch, room) is an assumption, listed in
 // docs/assumptions.md.
 #include "scenes/built_in.h"
+#include "scenes/masks.h"
 #include "scenes/mesh_shapes.h"
+#include "scenes/scene_parts.h"
 
 namespace retrolux {
 
 namespace {
-
-// Oval: 280 mm along z, 200 mm across (thesis 3.4).
-const Vec3d kOvalSemiAxes(100.0, 100.0, 140.0);
-constexpr int kOvalLevels = 5;  // 20,480 triangles
 
 // A conventional CT of about 2003: 700 mm bore, 800 mm deep. The flares are as wide as the front
 // cameras need: their lines of sight to the scan point leave a 350 mm bore at z = 277 to 307 mm.
@@ -51,12 +49,6 @@ const CameraPlace kCameras[] = {
     {"back-left", {680, 300, -1441}},    {"back-right", {680, -300, -1441}},
 };
 
-void Add(Scene& scene, const std::string& name, TriangleMesh mesh, const std::string& material,
-         bool moves = false) {
-  scene.UseMaterial(material);
-  scene.objects.push_back({name, std::move(mesh), {}, material, moves});
-}
-
 TriangleMesh GantryBody() {
   const Vec2d lo(kFloor, -kGantryHalfWidth), hi(kGantryTop, kGantryHalfWidth);
   const double depth = 2.0 * kGantryHalfDepth;
@@ -75,13 +67,13 @@ TriangleMesh GantryBody() {
 void AddRoom(Scene& scene) {
   const Vec3d lo(kFloor, -kHalfWidth, -kHalfLength), hi(kCeiling, kHalfWidth, kHalfLength);
   const Vec3d x(hi.x() - lo.x(), 0, 0), y(0, hi.y() - lo.y(), 0), z(0, 0, hi.z() - lo.z());
-  Add(scene, "floor", RectangleMesh(lo, y, z), "floor");
-  Add(scene, "ceiling", RectangleMesh(lo + x, z, y), "white_paint");
+  AddObject(scene, "floor", RectangleMesh(lo, y, z), "floor");
+  AddObject(scene, "ceiling", RectangleMesh(lo + x, z, y), "white_paint");
   TriangleMesh walls = RectangleMesh(lo, z, x);
   walls.Append(RectangleMesh(lo + y, x, z));
   walls.Append(RectangleMesh(lo, x, y));
   walls.Append(RectangleMesh(lo + z, y, x));
-  Add(scene, "walls", std::move(walls), "white_paint");
+  AddObject(scene, "walls", std::move(walls), "white_paint");
   for (const double lamp_y : {-1200.0, 1200.0}) {
     for (const double lamp_z : {-1800.0, 1800.0}) {
       scene.ambient.panels.push_back(
@@ -92,18 +84,18 @@ void AddRoom(Scene& scene) {
 }
 
 void AddScanner(Scene& scene) {
-  Add(scene, "bore",
-      BoreMesh({{kBackFlareRadius, -kGantryHalfDepth},
-                {kBoreRadius, -kBoreHalfLength},
-                {kBoreRadius, kBoreHalfLength},
-                {kFrontFlareRadius, kGantryHalfDepth}},
-               kGantrySegments),
-      "gantry_plastic");
-  Add(scene, "gantry", GantryBody(), "gantry_plastic");
-  Add(scene, "couch",
-      BoxMesh({kCouchTop - kCouchThickness, -kCouchHalfWidth, kCouchHeadEnd},
-              {kCouchTop, kCouchHalfWidth, kCouchHeadEnd + kCouchLength}),
-      "couch_carbon", true);
+  AddObject(scene, "bore",
+            BoreMesh({{kBackFlareRadius, -kGantryHalfDepth},
+                      {kBoreRadius, -kBoreHalfLength},
+                      {kBoreRadius, kBoreHalfLength},
+                      {kFrontFlareRadius, kGantryHalfDepth}},
+                     kGantrySegments),
+            "gantry_plastic");
+  AddObject(scene, "gantry", GantryBody(), "gantry_plastic");
+  AddObject(scene, "couch",
+            BoxMesh({kCouchTop - kCouchThickness, -kCouchHalfWidth, kCouchHeadEnd},
+                    {kCouchTop, kCouchHalfWidth, kCouchHeadEnd + kCouchLength}),
+            "couch_carbon", true);
 }
 
 // The body of a camera behind its lens; the ring of diodes lies in front of it.
@@ -116,22 +108,12 @@ SceneObject Housing(const CameraModel& camera) {
   return housing;
 }
 
-// The thesis's camera, looking at the origin.
-CameraSpec ThesisCamera(const std::string& name, const Vec3d& eye, const Vec3d& up) {
-  CameraSpec camera;
-  camera.model =
-      CameraModel::FromFieldOfView(name, 640, 480, 12.18, 9.15, LookAt(eye, Vec3d::Zero(), up));
-  camera.filter = DichroicFilter{};
-  camera.ring = DiodeRing{};
-  return camera;
-}
-
 }  // namespace
 
 Scene CtRoom() {
   Scene scene;
   scene.name = "ct-room";
-  Add(scene, "mask", EllipsoidMesh(kOvalSemiAxes, kOvalLevels), "mask", true);
+  AddObject(scene, "mask", MakeMask("oval"), "mask", true);
   AddScanner(scene);
   AddRoom(scene);
   scene.UseMaterial("black");
@@ -141,32 +123,6 @@ Scene CtRoom() {
   }
   scene.UseMaterial("retro_bead");
   scene.poses = {{"reference", {0, 0, 0}}, {"start", {0, 0, 140}}, {"end", {0, 0, -140}}};
-  return scene;
-}
-
-Scene OvalScene() {
-  Scene scene;
-  scene.name = "oval";
-  Add(scene, "mask", EllipsoidMesh(kOvalSemiAxes, kOvalLevels), "mask");
-  scene.UseMaterial("retro_bead");
-  scene.cameras.push_back(ThesisCamera("camera", {1600, 0, 0}, Vec3d::UnitZ()));
-  // The six identifiable markers and a standard one in the middle, spread over the side that the
-  // camera sees.
-  for (int i = 0; i < 6; ++i) {
-    const double z = i < 3 ? -55.0 : 55.0;
-    scene.markers.push_back({fmt::format("marker-{}", i + 1), i + 1, "mask",
-                             Vec3d(90.0, 45.0 * (i % 3 - 1), z), 15.0 * i});
-  }
-  scene.markers.push_back({"standard", 0, "mask", Vec3d(100, 0, 0)});
-  return scene;
-}
-
-Scene SphereScene() {
-  Scene scene;
-  scene.name = "sphere";
-  Add(scene, "sphere", EllipsoidMesh(Vec3d::Constant(100.0), kOvalLevels), "mask");
-  scene.UseMaterial("retro_bead");
-  scene.cameras.push_back(ThesisCamera("camera", {1600, 0, 0}, Vec3d::UnitZ()));
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #include "scenes/mesh.h"
 
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -23,6 +24,54 @@ void TriangleMesh::Append(const TriangleMesh& other) {
   normals.insert(normals.end(), other.normals.begin(), other.normals.end());
   for (const auto& t : other.triangles)
     triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+}
+
+namespace {
+
+struct Corner {
+  uint32_t triangle;
+  float angle_rad;
+};
+
+Vec3f FacetNormal(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t) {
+  const Vec3f& a = mesh.positions[t[0]];
+  return (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).normalized();
+}
+
+float CornerAngle(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t, size_t corner) {
+  const Vec3f& at = mesh.positions[t[corner]];
+  const Vec3f u = mesh.positions[t[(corner + 1) % 3]] - at;
+  const Vec3f v = mesh.positions[t[(corner + 2) % 3]] - at;
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+}  // namespace
+
+std::vector<std::array<Vec3f, 3>> CornerNormals(const TriangleMesh& mesh, double crease_deg) {
+  const auto limit = static_cast<float>(std::cos(RadFromDeg(crease_deg)));
+  std::vector<Vec3f> facets;
+  std::vector<std::vector<Corner>> around(mesh.positions.size());
+  for (uint32_t id = 0; id < mesh.triangles.size(); ++id) {
+    const auto& t = mesh.triangles[id];
+    facets.push_back(FacetNormal(mesh, t));
+    for (size_t corner = 0; corner < 3 && mesh.normals.empty(); ++corner)
+      around[t[corner]].push_back({id, CornerAngle(mesh, t, corner)});
+  }
+  std::vector<std::array<Vec3f, 3>> normals(mesh.triangles.size());
+  for (uint32_t id = 0; id < mesh.triangles.size(); ++id) {
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const uint32_t vertex = mesh.triangles[id][corner];
+      Vec3f sum = Vec3f::Zero();
+      if (!mesh.normals.empty()) sum = mesh.normals[vertex];
+      for (const Corner& other : around[vertex]) {
+        if (facets[other.triangle].dot(facets[id]) > limit)
+          sum += other.angle_rad * facets[other.triangle];
+      }
+      normals[id][corner] =
+          sum.normalized().dot(facets[id]) > limit ? Vec3f(sum.normalized()) : facets[id];
+    }
+  }
+  return normals;
 }
 
 namespace {

@@ -21,6 +21,11 @@ struct TriangleMesh {
   void Append(const TriangleMesh& other);
 };
 
+// Unit normals at the corners of each triangle. Those of the vertices where the mesh has them, else
+// the mean of the triangles around the corner, weighted by their angles there; in both cases only
+// what lies within `crease_deg` of the triangle's own normal counts, so that edges stay edges.
+std::vector<std::array<Vec3f, 3>> CornerNormals(const TriangleMesh& mesh, double crease_deg = 40.0);
+
 struct SurfacePoint {
   Vec3d position;
   Vec3d normal;  // unit, interpolated where the mesh has vertex normals

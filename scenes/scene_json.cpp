@@ -5,6 +5,7 @@
 #include "core/json_reader.h"
 #include "scenes/built_in.h"
 #include "scenes/gltf.h"
+#include "scenes/mesh_import.h"
 #include "scenes/scene_json_camera.h"
 #include "scenes/scene_json_values.h"
 
@@ -122,7 +123,7 @@ RigidTransform ReadPlacement(JsonReader& json) {
   return placement;
 }
 
-// Reads the objects of one scene file; each geometry file is read once.
+// Reads the objects of one scene file; each glTF file is read once.
 class ObjectReader {
  public:
   ObjectReader(Scene& scene, fs::path folder, UpAxis up)
@@ -135,33 +136,42 @@ class ObjectReader {
     object.material = UsedMaterial(scene_, json, "material");
     object.moves_with_pose = json.Bool("moves_with_pose", object.moves_with_pose);
     const std::string file = PathBelow(json, "file");
+    const fs::path path = folder_ / file;
+    if (!fs::is_regular_file(path)) {
+      json.Child("file").Fail(fmt::format("no file {}", Quoted(file)),
+                              "a mesh file below the folder of the scene");
+    }
+    object.mesh = IsGltf(file) ? ReadGltf(json, path) : ReadOther(json, path);
+    return object;
+  }
+
+ private:
+  // Which mesh of the file, and in which frame.
+  TriangleMesh ReadGltf(JsonReader& json, const fs::path& path) {
     const bool has_node = json.Has("node");
     const std::string node = has_node ? json.String("node") : "";
     const bool in_node = json.Has("frame") && json.Choice("frame", {"file", "node"}) == "node";
     if (in_node && !has_node)
       json.Fail("\"frame\": \"node\" without a node", "the key 'node' with its name");
     json.Finish();
-    const GltfFile& geometry = Open(file, json.Child("file"));
-    object.mesh = has_node
-                      ? geometry.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
-                      : geometry.Mesh(up_);
-    return object;
+    const auto open = files_.find(path);
+    const GltfFile& geometry =
+        open != files_.end() ? open->second : files_.emplace(path, GltfFile(path)).first->second;
+    return has_node ? geometry.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
+                    : geometry.Mesh(up_);
   }
 
- private:
-  const GltfFile& Open(const std::string& name, const JsonReader& at) {
-    const auto open = files_.find(name);
-    if (open != files_.end()) return open->second;
-    const fs::path path = folder_ / name;
-    if (!fs::is_regular_file(path))
-      at.Fail(fmt::format("no file {}", Quoted(name)), "a glTF file below the folder of the scene");
-    return files_.emplace(name, GltfFile(path)).first->second;
+  // PLY, OBJ, STL: their axes are the object's, their unit must be said.
+  static TriangleMesh ReadOther(JsonReader& json, const fs::path& path) {
+    const LengthUnit unit = ParseLengthUnit(json.Choice("unit", {"mm", "cm", "m"}));
+    json.Finish();
+    return ImportMesh(path, unit);
   }
 
   Scene& scene_;
   const fs::path folder_;
   const UpAxis up_;
-  std::map<std::string, GltfFile> files_;
+  std::map<fs::path, GltfFile> files_;
 };
 
 // What a file says of itself: checked where wrong values would be misread.

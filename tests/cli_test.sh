@@ -232,8 +232,151 @@ head -1 study1/coverage.csv | grep -qx 'marker,pose,row,col,cameras_hit,satisfie
 holds "run.json tells how it was made" study1/run.json 'json.schema === "retrolux/run-1" && json.threads === 1 && json.seed === 1'
 [ -s study1/report.html ] && good "report.html" || bad "report.html" "missing"
 
+# ---------------------------------------------------------------------------------------- a study that is interrupted
+# 18 tasks: six cameras in three poses.
+long=(study markers --scene room --stride 7 --spp 2)
+tables=(hits.csv coverage.csv summary.json manifest.json)
+results() { find "$1/tasks" -name '[0-9a-f]*.json' 2>/dev/null | wc -l; }
+
+# interrupt NAME SIGNAL FOLDER COUNT: runs the study until COUNT results are there, then sends the signal.
+interrupt() {
+  local pid i
+  "$retrolux" "${long[@]}" --out "$3" >stdout.txt 2>stderr.txt </dev/null &
+  pid=$!
+  for ((i = 0; i < limit_s * 20 && $(results "$3") < $4; ++i)); do sleep 0.05; done
+  kill -"$2" $pid
+  wait $pid 2>/dev/null
+  local code=$? count
+  count=$(results "$3")
+  if [ $code -le 128 ]; then bad "$1" "exit code $code before the signal: $(head -c 300 stderr.txt)"
+  elif [ "$count" -lt "$4" ] || [ "$count" -ge 18 ]; then bad "$1" "$count results"
+  elif [ -e "$3/summary.json" ]; then bad "$1" "there is a summary already"
+  else good "$1"; fi
+}
+
+# same_as_whole NAME: the study in `killed` has the files of the one that was not interrupted, to the byte.
+same_as_whole() {
+  same "$1: the tables" whole killed "${tables[@]}"
+  rm -f killed/tasks/.*.part* killed/pictures/.*.part*  # of the run that was killed
+  local part
+  for part in tasks pictures; do
+    diff -rq whole/$part killed/$part >diff.txt && good "$1: $part" || bad "$1: $part" "$(head -3 diff.txt)"
+  done
+}
+
+succeed "study, not interrupted" "${long[@]}" --out whole
+holds "a task for each camera and pose" whole/manifest.json \
+  'json.stages.length === 1 && json.stages[0].tasks.length === 18 && json.stages[0].tasks[0].name === "camera front-middle, pose reference"'
+interrupt "study killed" KILL killed 3
+interrupt "study ended" TERM killed 7
+done_before=$(results killed)
+succeed "study goes on" "${long[@]}" --out killed
+grep -q "; $done_before of 18 tasks were done before" stdout.txt && good "it says what was done before" || bad "it says what was done before" "$(cat stdout.txt)"
+same_as_whole "interrupted and not interrupted"
+holds "run.json: what this run did" killed/run.json "json.tasks.done_before === $done_before && json.tasks.done_now === 18 - $done_before"
+
+rm killed/hits.csv
+succeed "finished study again" "${long[@]}" --out killed
+holds "nothing is rendered again" killed/run.json 'json.tasks.done_now === 0 && json.times.background_wall === 0'
+same_as_whole "finished study again"
+
+# again NAME PATTERN: one task is done again, with a warning that matches.
+again() {
+  run "${long[@]}" --out killed
+  local code=$?
+  if [ $code -ne 0 ]; then bad "$1" "exit code $code: $(head -c 300 stderr.txt)"
+  elif [ "$(wc -l <stderr.txt)" -ne 1 ] || ! grep -qE "$2" stderr.txt; then bad "$1" "on stderr: $(head -c 300 stderr.txt)"
+  else good "$1"; fi
+  holds "$1: one task" killed/run.json 'json.tasks.done_now === 1'
+  same_as_whole "$1"
+}
+result=$(find killed/tasks -name '[0-9a-f]*.json' | head -1)
+truncate -s 1000 "$result"
+again "truncated result" "$result: damaged.*is done again"
+rm "$(find killed/pictures -name '*.png' | head -1)"
+again "kept picture that is gone" "killed/tasks/.*no longer usable.*is done again"
+succeed "one pose of a study that is done" "${long[@]}" --poses start --out killed
+holds "its tasks are taken over" killed/run.json 'json.tasks.done_before === 6 && json.tasks.done_now === 0'
+grep -q "; 12 results of other work left alone" stdout.txt && good "it says what it left alone" || bad "it says what it left alone" "$(cat stdout.txt)"
+
+# -------------------------------------------------------------------------------------------------------------- masks
+for mask in face body oval sphere; do
+  succeed "mask make $mask" mask make $mask --out masks/$mask.glb --json
+  cp stdout.txt result.json
+  holds "mask make $mask: no warnings" result.json 'json.warnings.length === 0 && json.inside_out_pieces === 0'
+done
+succeed "mask make face" mask make face --out masks/face.glb --json
+cp stdout.txt result.json
+holds "face: 2,542 vertices, 76,459 mm2, one rim" result.json \
+  'json.vertices === 2542 && Math.abs(json.area_mm2 - 76459) < 0.01 && json.holes === 1'
+succeed "mask import of our own GLB" mask import masks/face.glb --out masks/again.glb --json
+cp stdout.txt result.json
+holds "imported as it was" result.json 'json.vertices === 2542 && Math.abs(json.area_mm2 - 76459) < 0.1'
+cmp -s masks/face.glb masks/again.glb && good "import changes nothing" ||
+  bad "import changes nothing" "GLB differs"
+succeed "mask import --flip" mask import masks/face.glb --flip --out masks/flipped.glb
+grep -q 'warning: 1 of 1 pieces inside out' stdout.txt && good "inside out is told" || bad "inside out is told" "$(cat stdout.txt)"
+
+# An OBJ of a cup, in metres.
+cat >cup.obj <<'OBJ'
+v 0 0 0
+v 0.2 0 0
+v 0.2 0.2 0
+v 0 0.2 0
+v 0.1 0.1 0.1
+f 1 2 5
+f 2 3 5
+f 3 4 5
+f 4 1 5
+OBJ
+succeed "mask import OBJ in metres" mask import cup.obj --unit m --out masks/cup.glb --json
+cp stdout.txt result.json
+holds "OBJ in metres" result.json 'Math.abs(json.area_mm2 - 56568.54) < 1 && json.holes === 1 && json.warnings.length === 0'
+succeed "mask import OBJ in the wrong unit" mask import cup.obj --unit mm --out masks/cup.glb --smooth
+grep -q 'warning: largest extent 0.2 mm.*1000 times as long.*is --unit right' stdout.txt && good "the unit is doubted" ||
+  bad "the unit is doubted" "$(cat stdout.txt)"
+cat >masks/scene.json <<'JSON'
+{"schema": "retrolux/scene-1", "name": "cup", "up_axis": "z",
+ "objects": [{"name": "cup", "file": "cup.obj", "unit": "m", "material": "mask"},
+             {"name": "face", "file": "face.glb", "material": "mask", "translation_mm": [0, 300, 0]}],
+ "cameras": [{"name": "c", "size": [32, 24], "field_of_view_deg": [12, 9], "eye_mm": [1600, 0, 0], "look_at_mm": [0, 0, 0],
+              "up": [0, 0, 1], "ring": {}}]}
+JSON
+cp cup.obj masks/
+succeed "OBJ and made GLB as objects of a scene" scene show masks/scene.json --json
+cp stdout.txt result.json
+holds "their areas" result.json \
+  'Math.abs(json.objects[0].area_mm2 - 56568.54) < 1 && Math.abs(json.objects[1].area_mm2 - 76459) < 0.1'
+
+succeed "mask sample" mask sample face --points 20000 --noise-mm 0.3 --out masks/cloud.ply
+succeed "mask reconstruct" mask reconstruct masks/cloud.ply --unit mm --compare face --out masks/surface.glb --json
+cp stdout.txt result.json
+holds "a mask through noisy points: 0.3 mm of noise, less than 0.12 mm from the truth" result.json \
+  'json.compare.to_truth.rms_mm < 0.12 && json.compare.from_truth.max_mm < 3.5 && json.pieces === 1 && json.holes === 1'
+succeed "mask reconstruct again" mask reconstruct masks/cloud.ply --unit mm --threads 1 --out masks/surface2.glb
+cmp -s masks/surface.glb masks/surface2.glb && good "the same points, the same bytes" || bad "the same points, the same bytes" "GLB differs"
+
+refuse "unknown mask" "no mask 'fase'; expected 'face'" bad.glb mask make fase --out bad.glb
+refuse "mask to no .glb" "bad\.ply.*'\.ply'; expected \.glb" bad.ply mask make face --out bad.ply
+refuse "relief of a sphere" "--relief.*'sphere'; expected.*'face'" bad.glb mask make sphere --relief 0.5 --out bad.glb
+refuse "import without a unit" 'cup\.obj.*no unit.*expected --unit' bad.glb mask import cup.obj --out bad.glb
+refuse "import of glTF in mm" 'face\.glb.*expected m: glTF is in metres' bad.glb mask import masks/face.glb --unit mm --out bad.glb
+refuse "import in inches" '--unit.*inch.*mm,cm,m' bad.glb mask import cup.obj --unit inch --out bad.glb
+refuse "import of an unknown format" "text\.png.*'\.png'; expected \.glb" bad.glb mask import text.png --unit mm --out bad.glb
+refuse "import of a missing file" 'gone\.ply.*expected' bad.glb mask import gone.ply --unit mm --out bad.glb
+refuse "import of points" 'cloud\.ply.*no triangles; expected a mesh' bad.glb mask import masks/cloud.ply --unit mm --out bad.glb
+head -c 3000 masks/cloud.ply >cut.ply
+refuse "import of a truncated PLY" 'cut\.ply.*expected' bad.glb mask import cut.ply --unit mm --out bad.glb
+printf '1 2 3\n4 five 6\n' >bad.xyz
+refuse "a cloud with a word" "bad\.xyz: line 2: '4 five 6'; expected x y z" bad.glb mask reconstruct bad.xyz --unit mm --out bad.glb
+printf '1 2 3\n4 5 6\n' >two.xyz
+refuse "a cloud of two points" '2 different points; expected at least 12' bad.glb mask reconstruct two.xyz --unit mm --out bad.glb
+for i in $(seq 0 99); do echo "$((i % 10)) $((i / 10)) 5"; done >plane.xyz
+refuse "a cloud in a plane" 'in a plane; expected' bad.glb mask reconstruct plane.xyz --unit mm --out bad.glb
+refuse "comparison with nothing" "no mask and no file 'hand'; expected one of face" bad.glb mask reconstruct masks/cloud.ply --unit mm --compare hand --out bad.glb
+
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" render scene "scene list" "scene show" "scene export" classify study "study markers"; do
+for command in "" render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/sampler.h"
 #include "core/sampling.h"
+#include "tests/message_of.h"
 #include "tests/statistics.h"
 
 namespace retrolux {
@@ -24,16 +25,6 @@ fs::path Scratch(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / "retrolux_core_test";
   fs::create_directories(folder);
   return folder / name;
-}
-
-template <typename Call>
-std::string MessageOf(Call call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 CameraModel ThesisCamera() {

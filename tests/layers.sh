@@ -32,6 +32,9 @@ only 'embree3/'     renderer/ray_scene.cpp
 only 'OpenImageIO/' core/image_file.cpp
 only 'tiny_gltf'    scenes/gltf_model.cpp scenes/gltf_write.cpp
 only 'tbb/'         core/parallel.cpp
+only 'assimp/'      scenes/mesh_import.cpp
+only 'CGAL/'        scenes/mesh_reconstruct.cpp
+only 'nlopt'        analysis/placement_refinement.cpp
 
 [ $bad -eq 0 ] && echo "layers: every include points downwards"
 exit $bad

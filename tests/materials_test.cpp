@@ -17,6 +17,7 @@
 #include "materials/entrance_weight.h"
 #include "materials/filter.h"
 #include "materials/material_library.h"
+#include "tests/message_of.h"
 #include "tests/statistics.h"
 
 namespace retrolux {
@@ -26,16 +27,6 @@ using BsdfPtr = std::shared_ptr<const Bsdf>;
 
 BsdfPtr FromJson(const std::string& text) {
   return MakeBsdf(JsonReader::FromText(text, "m.json"));
-}
-
-template <typename Call>
-std::string MessageOf(Call call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 struct NamedBsdf {

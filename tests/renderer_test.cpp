@@ -15,20 +15,11 @@
 #include "renderer/sensor.h"
 #include "scenes/built_in.h"
 #include "scenes/mesh_shapes.h"
+#include "tests/message_of.h"
 #include "tests/statistics.h"
 
 namespace retrolux {
 namespace {
-
-template <typename Call>
-std::string MessageOf(Call call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 struct Moments {
   double mean = 0.0, variance = 0.0;  // of the values, not of their mean

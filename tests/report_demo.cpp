@@ -214,7 +214,8 @@ void AddPictures(Report& report) {
   whole.push_back({"front-middle, frontal", MarkerPicture(640, 480, 60, 1.0, 11)});
   whole.push_back({"front-left, oblique", MarkerPicture(640, 480, 60, 0.5, 12)});
   report.PictureGrid("Marker 3 at growing incidence angles, cut out of the pictures.", crops, 6);
-  report.PictureGrid("Whole pictures of 640 x 480 pixels.", whole, 2);
+  report.PictureGrid("Whole pictures of 640 x 480 pixels.", whole, 2,
+                     {{"marker", "#b4b4b4"}, {"mask", "#1a1a1a"}});
   report.Picture("One picture by itself.", MarkerPicture(320, 240, 60, 0.8, 13));
 }
 

@@ -285,9 +285,11 @@ TEST_F(SceneJson, EulerAnglesTurnAboutXFirst) {
 TEST_F(SceneJson, WrongFilesAreRefusedWithOneMessage) {
   EXPECT_EQ(Message(folder_, [&] { ReadSceneFile(folder_ / "none.json"); }),
             "none.json: cannot be read (No such file or directory); expected a readable file");
+  std::vector<std::string> names;
+  for (const BuiltInEntry& entry : BuiltInScenes()) names.emplace_back(entry.name);
   EXPECT_EQ(Message(folder_, [&] { LoadScene("ct-rom"); }),
-            "no scene 'ct-rom'; expected ct-room, oval, sphere, or the path of a scene.json or of "
-            "its folder");
+            "no scene 'ct-rom'; expected " + JoinNames(names) +
+                ", or the path of a scene.json or of its folder");
   EXPECT_THAT(Message(folder_, [&] { ReadText("{\"name\": NaN}"); }),
               testing::StartsWith("scene.json: parse error at line 1, column 10: syntax error"));
   EXPECT_EQ(
@@ -337,7 +339,7 @@ TEST_F(SceneJson, WrongObjectsAreRefused) {
             "orthonormal rows "
             "with determinant +1");
   EXPECT_EQ(Wrong("/objects/0/file", "none.glb"),
-            "scene.json: /objects/0/file: found no file \"none.glb\"; expected a glTF file below "
+            "scene.json: /objects/0/file: found no file \"none.glb\"; expected a mesh file below "
             "the folder of the "
             "scene");
   for (const std::string path : {"../a.glb", "/etc/a.glb", "x/../../a.glb"}) {

@@ -10,7 +10,7 @@
  *   | {type: "plot", caption: string, data: object[], layout: object, height_px: number}   plotly's
  *   | {type: "table", caption: string, columns: string[], rows: string[][]}
  *   | {type: "pictures", caption: string, columns: number,
- *      items: {label: string, png: string}[]}   base64
+ *      items: {label: string, png: string}[], legend?: Category[]}   base64
  *   | {type: "oval_maps", caption: string, categories: Category[], maps: OvalMap[],
  *      grid: Grid}   see oval.js
  *   | {type: "attachment", file_name: string, text: string}} Block
@@ -115,13 +115,18 @@ function drawTable(block) {
 
 // --- maps ---
 
-function drawOvalMaps(block) {
-  const geometry = new OvalGeometry(block.grid);
+/** What colours mean. */
+function drawLegend(categories) {
   const swatch = (category) => {
     const mark = el('i', {});
     mark.style.background = category.colour;
     return el('li', {}, mark, category.label);
   };
+  return el('ul', { className: 'legend' }, ...categories.map(swatch));
+}
+
+function drawOvalMaps(block) {
+  const geometry = new OvalGeometry(block.grid);
   const maps = el(
     'div',
     { className: 'maps' },
@@ -138,7 +143,7 @@ function drawOvalMaps(block) {
   return figure(
     'Figure',
     block.caption,
-    el('ul', { className: 'legend' }, ...block.categories.map(swatch)),
+    drawLegend(block.categories),
     maps,
   );
 }

@@ -26,7 +26,8 @@ function drawPictures(block) {
     ...buttons,
   );
   grid.style.setProperty('--columns', block.columns);
-  return figure('Figure', block.caption, grid);
+  const legend = block.legend ? [drawLegend(block.legend)] : [];
+  return figure('Figure', block.caption, ...legend, grid);
 }
 
 /** One picture at a time: + and - zoom, 0 fits, the arrow keys turn the page, Escape closes. */

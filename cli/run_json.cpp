@@ -1,0 +1,43 @@
+#include "cli/run_json.h"
+
+#include <ctime>
+
+#include "core/atomic_file.h"
+
+namespace retrolux::cli {
+
+namespace {
+
+// "2026-11-22T10:00:00Z"
+std::string UtcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace
+
+StudyRun::StudyRun(const GlobalOptions& global)
+    : global_(global), started_(UtcNow()), start_(std::chrono::steady_clock::now()) {}
+
+double StudyRun::Seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void StudyRun::Write(const std::filesystem::path& folder, const nlohmann::json& figures) const {
+  nlohmann::json run = {{"schema", "retrolux/run-1"},
+                        {"version", RETROLUX_VERSION},
+                        {"units", "s"},
+                        {"pixel_origin", "center"},
+                        {"command", global_.command_line},
+                        {"seed", global_.seed},
+                        {"noise_seed", global_.NoiseSeed()},
+                        {"started", started_},
+                        {"seconds", Seconds()},
+                        {"threads", global_.threads > 0 ? global_.threads : AvailableThreads()}};
+  run.update(figures);
+  WriteTextFile(folder / "run.json", run.dump(2) + "\n");
+}
+
+}  // namespace retrolux::cli

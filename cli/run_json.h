@@ -1,0 +1,25 @@
+// run.json of a study: what was run, when, on what, how fast.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "cli/commands.h"
+
+namespace retrolux::cli {
+
+// Times a study from its making.
+class StudyRun {
+ public:
+  explicit StudyRun(const GlobalOptions& global);
+  double Seconds() const;
+  // run.json into `folder`, with the study's own figures merged in.
+  void Write(const std::filesystem::path& folder, const nlohmann::json& figures) const;
+
+ private:
+  const GlobalOptions& global_;
+  std::string started_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace retrolux::cli

@@ -1,0 +1,278 @@
+#include "core/task_manifest.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "tests/message_of.h"
+
+namespace retrolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+// An empty folder for each test.
+class TaskManifestTest : public testing::Test {
+ protected:
+  TaskManifestTest()
+      : folder_(fs::path(testing::TempDir()) / "retrolux_task_manifest_test" /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+  }
+  ~TaskManifestTest() override { fs::remove_all(folder_); }
+
+  // In the order of their names.
+  std::vector<fs::path> ResultFiles() const {
+    std::vector<fs::path> files;
+    for (const auto& file : fs::directory_iterator(folder_ / "tasks")) files.push_back(file.path());
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+
+  fs::path folder_;
+};
+
+std::vector<Task> Tasks(int count) {
+  std::vector<Task> tasks;
+  for (int i = 0; i < count; ++i) tasks.push_back({fmt::format("task {}", i), {{"index", i}}});
+  return tasks;
+}
+
+// Digits that a shorter print than the shortest exact one would lose.
+Json Value(size_t task) {
+  return {{"root", std::sqrt(static_cast<double>(task) + 2.0)}, {"task", task}};
+}
+
+// A run of the tasks by Value in a manifest of its own.
+struct Outcome {
+  std::vector<Json> results;
+  TaskReport report;
+  int64_t worked = 0;
+};
+
+Outcome RunAll(const fs::path& folder, const std::vector<Task>& tasks, const TaskLoop& loop = {},
+               const Json& options = {{"seed", 1}}) {
+  Outcome outcome;
+  std::atomic<int64_t> worked = 0;
+  TaskManifest manifest(folder, "roots", options);
+  outcome.results = manifest.Run(
+      "values", tasks,
+      [&](size_t task) {
+        ++worked;
+        return Value(task);
+      },
+      NoProgress(), loop);
+  outcome.report = manifest.Report();
+  outcome.worked = worked;
+  return outcome;
+}
+
+TEST_F(TaskManifestTest, ResultsComeInOrderAndExactly) {
+  const Outcome outcome = RunAll(folder_, Tasks(20));
+  ASSERT_EQ(outcome.results.size(), 20u);
+  for (size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(outcome.results[i]["task"], i);
+    EXPECT_EQ(outcome.results[i]["root"].get<double>(), std::sqrt(static_cast<double>(i) + 2.0));
+  }
+  EXPECT_EQ(outcome.report.done_now, 20);
+  EXPECT_EQ(outcome.report.Text(), "");
+}
+
+TEST_F(TaskManifestTest, ASecondRunWorksNotAtAllAndGivesTheSame) {
+  const Outcome first = RunAll(folder_, Tasks(5));
+  const Outcome second = RunAll(folder_, Tasks(5));
+  EXPECT_EQ(second.worked, 0);
+  EXPECT_EQ(second.results, first.results);
+  EXPECT_EQ(second.report.Text(), "5 of 5 tasks were done before");
+}
+
+TEST_F(TaskManifestTest, GoesOnAfterAPartialRun) {
+  RunAll(folder_, Tasks(3));
+  const Outcome whole = RunAll(folder_, Tasks(8));
+  EXPECT_EQ(whole.worked, 5);
+  EXPECT_EQ(whole.report.done_before, 3);
+  EXPECT_EQ(whole.results[2], Value(2));
+  EXPECT_EQ(whole.results[7], Value(7));
+}
+
+TEST_F(TaskManifestTest, ResultsThatAreNoneAreDoneAgainWithAWarning) {
+  const std::vector<Json> expected = RunAll(folder_, Tasks(5)).results;
+  const std::vector<fs::path> files = ResultFiles();
+  const std::string text = ReadTextFile(files[0]);
+  std::string flipped = text;
+  flipped[text.find("\"root\":") + 9] ^= 1;  // a digit of the number
+  WriteTextFile(files[0], flipped);
+  WriteTextFile(files[1], ReadTextFile(files[1]).substr(0, 60));
+  WriteTextFile(files[2], "");
+  WriteTextFile(files[3], text);  // whole, and of another task
+  const Outcome outcome = RunAll(folder_, Tasks(5));
+  EXPECT_EQ(outcome.worked, 4);
+  EXPECT_EQ(outcome.results, expected);
+  ASSERT_EQ(outcome.report.warnings.size(), 4u);
+  EXPECT_THAT(outcome.report.warnings,
+              testing::Contains(HasSubstr(files[1].string() + ": damaged; expected a whole file")));
+  EXPECT_THAT(outcome.report.warnings, testing::Contains(HasSubstr("not of this task; expected")));
+  EXPECT_THAT(outcome.report.warnings, testing::Each(HasSubstr("is done again")));
+  EXPECT_EQ(ReadTextFile(files[0]), text);
+  EXPECT_EQ(RunAll(folder_, Tasks(5)).worked, 0);
+}
+
+TEST_F(TaskManifestTest, OtherWorkIsNotTakenOverAndLeftAlone) {
+  RunAll(folder_, Tasks(4));
+  const Outcome other_options = RunAll(folder_, Tasks(4), {}, {{"seed", 2}});
+  EXPECT_EQ(other_options.worked, 4);
+  EXPECT_EQ(other_options.report.others, 4);
+  EXPECT_EQ(other_options.report.Text(), "4 results of other work left alone");
+  const Outcome fewer = RunAll(folder_, Tasks(3));
+  EXPECT_EQ(fewer.worked, 0);
+  EXPECT_EQ(fewer.report.others, 5);
+  TaskManifest other_study(folder_, "cubes", {{"seed", 1}});
+  other_study.Run("values", Tasks(4), Value);
+  EXPECT_EQ(other_study.Report().done_now, 4);
+}
+
+TEST_F(TaskManifestTest, NamesAndTheOrderOfKeysDefineNothing) {
+  RunAll(folder_, {{"one", Json::parse(R"({"a": 1, "b": {"c": 2, "d": 3}})")}});
+  const Task reordered{"another name", Json::parse(R"({"b": {"d": 3, "c": 2}, "a": 1})")};
+  EXPECT_EQ(RunAll(folder_, {reordered}).worked, 0);
+  const Task different{"one", Json::parse(R"({"a": 1, "b": {"c": 2, "d": 4}})")};
+  EXPECT_EQ(RunAll(folder_, {different}).worked, 1);
+}
+
+TEST_F(TaskManifestTest, AFailureKeepsAllOthers) {
+  for (const bool parallel : {false, true}) {
+    const fs::path folder = folder_ / (parallel ? "parallel" : "serial");
+    TaskLoop loop;
+    loop.parallel = parallel;
+    const auto work = [](size_t task) {
+      if (task == 3 || task == 7) throw InputError(fmt::format("no light in {}", task));
+      std::atomic<int> inner = 0;
+      ParallelFor(100, [&](int64_t) { ++inner; });
+      EXPECT_EQ(inner, 100);  // the failure of another task cuts no loop short
+      return Value(task);
+    };
+    TaskManifest manifest(folder, "roots", {{"seed", 1}});
+    EXPECT_EQ(MessageOf([&] { manifest.Run("values", Tasks(40), work, NoProgress(), loop); }),
+              "task 'task 3' failed (2 of 40 did; what is done is kept): no light in 3");
+    EXPECT_EQ(manifest.Report().done_now, 38);
+    EXPECT_EQ(RunAll(folder, Tasks(40)).worked, 2);
+  }
+}
+
+TEST_F(TaskManifestTest, AFullDiskStopsTheStage) {
+  TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+  int begun = 0;
+  const auto work = [&](size_t task) -> Json {
+    ++begun;
+    if (task == 2) throw TryAgainError("disk full");
+    return Value(task);
+  };
+  TaskLoop serial;
+  serial.parallel = false;
+  EXPECT_THROW(manifest.Run("values", Tasks(10), work, NoProgress(), serial), TryAgainError);
+  EXPECT_EQ(begun, 3);
+  EXPECT_EQ(RunAll(folder_, Tasks(10)).worked, 8);
+}
+
+TEST_F(TaskManifestTest, AResultThatJsonCannotHoldIsNotKept) {
+  TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+  const auto work = [](size_t) { return Json(std::numeric_limits<double>::quiet_NaN()); };
+  EXPECT_THROW(manifest.Run("values", Tasks(1), work), std::runtime_error);
+  EXPECT_TRUE(ResultFiles().empty());
+}
+
+TEST_F(TaskManifestTest, ThreadsChangeNothing) {
+  std::vector<std::string> texts;
+  for (const int threads : {1, 4}) {
+    const fs::path folder = folder_ / std::to_string(threads);
+    const LimitThreads limit(threads);
+    RunAll(folder, Tasks(50));
+    std::string text = ReadTextFile(folder / "manifest.json");
+    std::set<fs::path> files;
+    for (const auto& file : fs::directory_iterator(folder / "tasks")) files.insert(file.path());
+    for (const fs::path& file : files) text += file.filename().string() + ReadTextFile(file);
+    texts.push_back(text);
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
+TEST_F(TaskManifestTest, StagesStandInOneManifest) {
+  const auto run = [&] {
+    TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+    const std::vector<Json> first = manifest.Run("phase 1", Tasks(3), Value);
+    std::vector<Task> second = {Tasks(2)[1]};  // one that phase 1 has done
+    second.push_back({"follows", {{"from", first[2]["root"]}}});
+    manifest.Run("phase 2", second, [](size_t task) { return Value(task + 10); });
+    return manifest.Report();
+  };
+  EXPECT_EQ(run().done_now, 4);
+  const TaskReport again = run();
+  EXPECT_EQ(again.done_now, 0);
+  EXPECT_EQ(again.done_before, 4);
+  EXPECT_EQ(again.others, 0);
+  const Json manifest = Json::parse(ReadTextFile(folder_ / "manifest.json"));
+  EXPECT_EQ(manifest["schema"], "retrolux/manifest-1");
+  EXPECT_EQ(manifest["stages"][1]["stage"], "phase 2");
+  EXPECT_EQ(manifest["stages"][1]["tasks"][0]["id"], manifest["stages"][0]["tasks"][1]["id"]);
+  EXPECT_EQ(manifest["stages"][1]["tasks"][1]["name"], "follows");
+}
+
+TEST_F(TaskManifestTest, ResultsThatAreNoLongerUsableAreDoneAgain) {
+  RunAll(folder_, Tasks(4));
+  TaskLoop loop;
+  loop.usable = [](const Json& result) { return result["task"] != 2; };
+  const Outcome outcome = RunAll(folder_, Tasks(4), loop);
+  EXPECT_EQ(outcome.worked, 1);
+  EXPECT_THAT(outcome.report.warnings,
+              testing::ElementsAre(HasSubstr("no longer usable; expected all that")));
+}
+
+class CountingProgress : public Progress {
+ public:
+  void Begin(const std::string& stage, int64_t total, const std::string& unit) override {
+    text = fmt::format("{}: {} {}", stage, total, unit);
+  }
+  void Advance(int64_t steps) override { done += steps; }
+  void End() override { ended = true; }
+
+  std::string text;
+  std::atomic<int64_t> done = 0;
+  bool ended = false;
+};
+
+TEST_F(TaskManifestTest, ProgressCountsWhatIsLeft) {
+  RunAll(folder_, Tasks(2));
+  CountingProgress tasks;
+  TaskManifest(folder_, "roots", {{"seed", 1}}).Run("values", Tasks(5), Value, tasks);
+  EXPECT_EQ(tasks.text, "values, 2 of 5 tasks were done before: 3 tasks");
+  EXPECT_EQ(tasks.done, 3);
+  EXPECT_TRUE(tasks.ended);
+
+  CountingProgress pictures;
+  TaskLoop loop;
+  loop.unit = "pictures";
+  loop.steps_per_task = 12;
+  const auto work = [&](size_t task) {
+    pictures.Advance(12);
+    return Value(task);
+  };
+  TaskManifest(folder_, "roots", {{"seed", 1}}).Run("values", Tasks(6), work, pictures, loop);
+  EXPECT_EQ(pictures.text, "values, 5 of 6 tasks were done before: 12 pictures");
+  EXPECT_EQ(pictures.done, 12);
+}
+
+TEST_F(TaskManifestTest, AFolderThatCannotBeIsRefused) {
+  EXPECT_THAT(MessageOf([] { TaskManifest("/proc/no/such/place", "roots", Json::object()); }),
+              HasSubstr("expected a place that can be written to"));
+}
+
+}  // namespace
+}  // namespace retrolux
