@@ -113,13 +113,13 @@ std::vector<AreaRow> MeasureEllipsoids(AreaBench& bench) {
 
 namespace {
 
-// Settings of an axis while the others stay: 640 x 480, 81,920 triangles, 1.3 million samples.
-constexpr int kBaseWidth_px = 640, kBaseLevels = 6, kBaseParts = 4;
-constexpr double kPicture = 0.75;  // height over width
+// What is varied along an axis while the others stay as they are asked for. Of the sphere's samples
+// a triangle has 4 x 4: 1.3 million by default.
+constexpr int kBaseParts = 4;
 
 struct Setting {
-  int width_px = kBaseWidth_px, levels = kBaseLevels;
-  double part_area_mm2 = 0.0;
+  int width_px, height_px, levels;
+  double part_area_mm2;
 };
 
 double TriangleArea(int levels) {
@@ -132,11 +132,14 @@ double PartOf(int levels, int parts) {
   return 1.3 * TriangleArea(levels) / (parts * parts);
 }
 
-Setting SettingOf(const AreaSetting& asked) {
-  Setting setting;
-  setting.part_area_mm2 = PartOf(kBaseLevels, kBaseParts);
-  if (asked.axis == AreaAxis::kResolution) setting.width_px = asked.value;
-  if (asked.axis == AreaAxis::kSamples) setting.part_area_mm2 = PartOf(kBaseLevels, asked.value);
+Setting SettingOf(const AreaStudyOptions& options, const AreaSetting& asked) {
+  Setting setting{options.width_px, options.height_px, options.levels,
+                  PartOf(options.levels, kBaseParts)};
+  if (asked.axis == AreaAxis::kResolution) {
+    setting.width_px = asked.value;
+    setting.height_px = std::max(1, options.height_px * asked.value / options.width_px);
+  }
+  if (asked.axis == AreaAxis::kSamples) setting.part_area_mm2 = PartOf(options.levels, asked.value);
   if (asked.axis == AreaAxis::kTriangles) setting.levels = asked.value;
   return setting;
 }
@@ -145,10 +148,6 @@ Setting SettingOf(const AreaSetting& asked) {
 int RingsOf(int levels) {
   return static_cast<int>(
       std::lround(std::sqrt(kPi * kRadius * kRadius / TriangleArea(levels) / 6.0)));
-}
-
-CameraModel Resized(const CameraModel& camera, int width_px) {
-  return camera.Resized(width_px, static_cast<int>(std::lround(kPicture * width_px)));
 }
 
 double AxisValue(const AreaSetting& setting, const Mask& mask, size_t triangles) {
@@ -170,14 +169,15 @@ AreaRow SettingRow(const AreaSetting& asked, const char* shape, double x, int ro
 
 std::vector<AreaRow> MeasureSphereSetting(AreaBench& bench, const AreaSetting& asked) {
   constexpr double kPsi = 2.0 * kPi / 3.0;
-  const Setting setting = SettingOf(asked);
+  const Setting setting = SettingOf(bench.Options(), asked);
   const Mask sphere("sphere", EllipsoidMesh(Vec3d::Constant(kRadius), setting.levels), asked.rule,
                     setting.part_area_mm2, bench.Options().seed);
   const double x = AxisValue(asked, sphere, sphere.Mesh().triangles.size());
   const double half_angle = std::acos(kRadius / bench.Distance_mm());
   const std::vector<CameraModel> cameras = {
-      Resized(bench.Camera(Vec3d::UnitX()), setting.width_px),
-      Resized(bench.Camera({std::cos(kPsi), std::sin(kPsi), 0.0}), setting.width_px)};
+      bench.Camera(Vec3d::UnitX()).Resized(setting.width_px, setting.height_px),
+      bench.Camera({std::cos(kPsi), std::sin(kPsi), 0.0})
+          .Resized(setting.width_px, setting.height_px)};
   const auto rotations = static_cast<size_t>(bench.Options().rotations);
   std::vector<AreaRow> rows(2 * rotations);
   ParallelFor(bench.Options().rotations, [&](int64_t i) {
@@ -209,18 +209,18 @@ TriangleMesh HalfHiddenDisc(int rings) {
 }
 
 // A view from within 10 degrees of the normal, the picture turned at random.
-CameraModel ViewOfDisc(const AreaBench& bench, const Mat3d& turn, uint64_t key, int width_px,
-                       Vec3d& centre) {
+CameraModel ViewOfDisc(const AreaBench& bench, const Mat3d& turn, uint64_t key,
+                       const Setting& setting, Vec3d& centre) {
   KeyedRng rng(key);
   const double tilt = RadFromDeg(10.0 * rng.NextDouble()), azimuth = 2.0 * kPi * rng.NextDouble();
   const Vec3d direction(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
                         std::cos(tilt));
   centre = bench.Distance_mm() * direction;
-  return Resized(bench.Camera(turn * direction), width_px);
+  return bench.Camera(turn * direction).Resized(setting.width_px, setting.height_px);
 }
 
 std::vector<AreaRow> MeasureDiscSetting(AreaBench& bench, const AreaSetting& asked) {
-  const Setting setting = SettingOf(asked);
+  const Setting setting = SettingOf(bench.Options(), asked);
   const int rings = RingsOf(setting.levels);
   const auto triangles = static_cast<size_t>(6 * rings * rings);
   const Mask disc("disc", HalfHiddenDisc(rings), asked.rule, setting.part_area_mm2,
@@ -231,7 +231,7 @@ std::vector<AreaRow> MeasureDiscSetting(AreaBench& bench, const AreaSetting& ask
     const uint64_t key = CombineKeys(bench.Options().seed, 1000 + static_cast<uint64_t>(i));
     const Mat3d turn = RandomRotation(key);
     Vec3d centre;
-    const CameraModel camera = ViewOfDisc(bench, turn, key, setting.width_px, centre);
+    const CameraModel camera = ViewOfDisc(bench, turn, key, setting, centre);
     AreaRow row = SettingRow(asked, "half-hidden disc", x, static_cast<int>(i));
     row.rendered_mm2 = AreaOfFirst(disc, AreaBench::Seen(disc, turn, {camera})[0], triangles);
     row.analytic_mm2 =
@@ -249,18 +249,18 @@ const char* NameOf(AreaAxis axis) {
   return kNames[static_cast<size_t>(axis)];
 }
 
-std::vector<AreaSetting> AreaSettings() {
+std::vector<AreaSetting> AreaSettings(const AreaStudyOptions& options) {
   std::vector<AreaSetting> settings;
   for (const bool disc : {false, true}) {
     for (const VisibilityRule rule :
          {VisibilityRule::kIdBuffer, VisibilityRule::kRays, VisibilityRule::kTriangles}) {
-      for (const int width : {160, 320, 640, 1280})
-        settings.push_back({disc, rule, AreaAxis::kResolution, width});
+      for (const int quarters : {1, 2, 4, 8})
+        settings.push_back({disc, rule, AreaAxis::kResolution, options.width_px * quarters / 4});
       if (rule != VisibilityRule::kTriangles) {  // which has one sample a triangle
         for (const int parts : {1, 2, 4, 8})
           settings.push_back({disc, rule, AreaAxis::kSamples, parts});
       }
-      for (int levels = 3; levels <= 7; ++levels)
+      for (int levels = std::min(3, options.levels); levels <= options.levels + 1; ++levels)
         settings.push_back({disc, rule, AreaAxis::kTriangles, levels});
     }
   }

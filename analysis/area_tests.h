@@ -73,7 +73,7 @@ struct AreaSetting {
   int value = 0;  // pixels across; samples along a triangle's edge; levels of the mesh
 };
 const char* NameOf(AreaAxis axis);
-std::vector<AreaSetting> AreaSettings();
+std::vector<AreaSetting> AreaSettings(const AreaStudyOptions& options);
 std::vector<AreaRow> MeasureSetting(AreaBench& bench, const AreaSetting& setting);
 
 }  // namespace retrolux

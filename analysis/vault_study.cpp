@@ -204,6 +204,8 @@ class Evaluator {
       const Refinement r =
           RefinePlacement(room.scenario, start, cost, kRefinementTolerance_deg, kMostRefinements);
       placements_ += r.evaluations;
+      for (const PlacementSearch& search : room.searches)
+        orientations_ += r.evaluations * static_cast<int64_t>(search.Rotations().size());
       return nlohmann::json{ToJson(r.placement), r.cost, r.evaluations};
     });
     const nlohmann::json& row = rows.front();
@@ -286,9 +288,11 @@ std::vector<std::pair<std::string, Placement>> Moved(const Scenario& scenario,
     Placement placement = best;
     placement.*which += by;
     if (scenario.rigs.same_height) placement.theta2_deg = placement.theta1_deg;
+    const bool again = std::any_of(moved.begin(), moved.end(),
+                                   [&](const auto& other) { return other.second == placement; });
     const bool beside = placement.phi_b_deg < spec.phi_b_deg.from ||
                         placement.phi_b_deg > spec.phi_b_deg.to;  // of what is searched
-    if (!beside && NotBuildable(scenario, placement).empty())
+    if (!again && !beside && NotBuildable(scenario, placement).empty())
       moved.emplace_back(fmt::format("{} {:+g} deg", variable, by), placement);
   };
   for (const double sign : {-1.0, 1.0}) {
@@ -404,6 +408,13 @@ void Search(Evaluator& evaluator, const Room& room, VaultStudy& study) {
     for (PlacementResult& result :
          evaluator.Evaluate("phase 2", 2, room, SlicesOf(around, centres)))
       study.results.push_back(std::move(result));
+  }
+  if (BestOf(study.results).Worst().worth.combination == 0) {
+    throw InputError::At(scenario.file, "/combinations",
+                         fmt::format("no combination with {} degrees between any two cameras, at "
+                                     "any placement",
+                                     scenario.combinations.min_separation_deg),
+                         "a smaller min_separation_deg");
   }
   study.best = Optimum(evaluator, room, study.results);
   std::vector<PlacementResult> far;

@@ -1,11 +1,11 @@
 // retrolux render SCENE --out DIR
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 
 #include "analysis/shot.h"
 #include "cli/commands.h"
+#include "cli/picture_size.h"
 #include "scenes/scene_json.h"
 
 namespace retrolux::cli {
@@ -20,21 +20,6 @@ struct RenderCommand {
   std::string rings = "all";
   ShotOptions shot;
 };
-
-// "WxH"
-std::pair<int, int> ParseSize(const std::string& text) {
-  int width = 0, height = 0;
-  const char* const end = text.data() + text.size();
-  const auto [cross, width_error] = std::from_chars(text.data(), end, width);
-  const bool split = width_error == std::errc{} && cross != end && *cross == 'x';
-  const auto [rest, height_error] = std::from_chars(split ? cross + 1 : end, end, height);
-  if (!split || height_error != std::errc{} || rest != end || width < 1 || height < 1 ||
-      width > 16384 || height > 16384) {
-    throw InputError(
-        fmt::format("--size {}: expected WIDTHxHEIGHT in px, each from 1 to 16384", text));
-  }
-  return {width, height};
-}
 
 int RunRender(RenderCommand command, const GlobalOptions& global) {
   Scene scene = LoadScene(command.scene);

@@ -7,6 +7,7 @@
 
 #include "analysis/vault_report.h"
 #include "analysis/vault_study.h"
+#include "cli/picture_size.h"
 #include "cli/run_json.h"
 #include "cli/study.h"
 #include "core/atomic_file.h"
@@ -60,12 +61,7 @@ std::vector<std::string> ChooseMasks(const StudyVaultCommand& command, Scenario&
 
 void SetSize(const std::string& size, Scenario& scenario) {
   if (size.empty()) return;
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 8 ||
-      height < 8) {
-    throw InputError(fmt::format("--size {}; expected WIDTHxHEIGHT in pixels, e.g. 640x480", size));
-  }
+  const auto [width, height] = ParseSize(size);
   scenario =
       Changed(scenario, "--size", {{"cameras", {{"width_px", width}, {"height_px", height}}}});
 }
@@ -116,7 +112,7 @@ std::string Text(const VaultStudy& study) {
   return fmt::format(
       "simulation {}: phi_b {:g}, theta_1 {:.2f}, theta_2 {:.2f} deg: cost {:.4f}, {:.1f} cm2 seen "
       "by two or more of cameras {}\n"
-      "{} placements x orientations in {:.1f} s ({:.0f} a second), {} id buffers ({:.0f} a "
+      "{} placements x orientations in {:.1f} s ({:.0f} a second), {} views made ({:.0f} a "
       "second){}\n",
       study.scenario.name, best.Where().phi_b_deg, best.Where().theta1_deg, best.Where().theta2_deg,
       best.Cost(), best.Worst().worth.area_mm2 / 100.0, NameOf(best.Worst().worth.combination),
@@ -151,6 +147,7 @@ class VaultCommand {
     const StudyRun run(global_);
     SetSize(command_.size, scenario);
     options.masks = ChooseMasks(command_, scenario);
+    CheckInput(scenario, options);
     WarnOfMeshes(scenario, options.masks);
     EnsureWritableFolder(folder);
     studies_.push_back(RunVaultStudy(scenario, options, stores_, folder, *progress_));
@@ -182,6 +179,17 @@ class VaultCommand {
   void Print() const { PrintResult(global_, summary_, text_); }
 
  private:
+  // What is wrong with masks or numbers is told before there is a folder.
+  void CheckInput(const Scenario& scenario, const VaultStudyOptions& options) {
+    for (const std::string& mask : options.masks)
+      const PlacementSearch search(scenario, mask, stores_.For(scenario, mask));
+    if (!options.placement) {
+      PlacementGrid(scenario);
+    } else if (const std::string why = NotBuildable(scenario, *options.placement); !why.empty()) {
+      throw InputError::At(command_.placement, "/placement", why, "a placement that can be built");
+    }
+  }
+
   const StudyVaultCommand& command_;
   const GlobalOptions& global_;
   MaskStores stores_;
@@ -218,7 +226,6 @@ int RunStudyVault(const StudyVaultCommand& command, const GlobalOptions& global)
   }
   std::vector<Scenario> scenarios;
   for (const std::string& name : names) scenarios.push_back(LoadScenario(name));
-  EnsureWritableFolder(command.out);
   VaultCommand run(command, global);
   std::map<std::string, Placement> best;
   for (const Scenario& scenario : scenarios) {

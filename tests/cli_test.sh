@@ -375,8 +375,152 @@ for i in $(seq 0 99); do echo "$((i % 10)) $((i / 10)) 5"; done >plane.xyz
 refuse "a cloud in a plane" 'in a plane; expected' bad.glb mask reconstruct plane.xyz --unit mm --out bad.glb
 refuse "comparison with nothing" "no mask and no file 'hand'; expected one of face" bad.glb mask reconstruct masks/cloud.ply --unit mm --compare hand --out bad.glb
 
+# ------------------------------------------------------------------------------------------------- cameras in the vault
+cat >tiny.json <<'JSON'
+{"schema": "retrolux/scenario-1", "base": "1a", "name": "tiny",
+ "cameras": {"width_px": 160, "height_px": 120},
+ "masks": {"face": {"x_deg": [0], "y_deg": [-10], "z_deg": {"from": 0, "to": 180, "step": 90}}},
+ "search": {"phi_b_deg": {"from": 40, "to": 60, "step": 20}, "theta_deg": {"from": 31.67, "to": 70.52, "step": 38.85},
+            "refined_phi_b_step_deg": 10, "refined_theta_step_deg": 38.85, "refined_optima": 1},
+ "variations": []}
+JSON
+vault=(study vault --scenario tiny.json --sample-area 40 --quick)
+cut='warning: the mask is larger than the field of view in [1-9][0-9]* of [0-9]+ views'
+
+# vault NAME ARGS...: exit code 0, and on stderr at most that the mask is larger than a picture, as this face is in some.
+vault() {
+  local name=$1 code
+  shift
+  run "$@"
+  code=$?
+  if [ $code -ne 0 ]; then bad "$name" "exit code $code: $(head -c 300 stderr.txt)"; return 1
+  elif grep -qvE "$cut" stderr.txt || [ "$(wc -l <stderr.txt)" -gt 1 ]; then bad "$name" "on stderr: $(head -c 300 stderr.txt)"; return 1
+  else good "$name"; fi
+}
+
+# cost FOLDER: of the optimum.
+cost() { node -p "JSON.parse(require('fs').readFileSync('$1/solution.json', 'utf8')).cost"; }
+
+tables=(evaluations.csv orientations.csv solution.json)
+vault "study vault on 1 thread" "${vault[@]}" --visibility rays --threads 1 --out vault1
+vault "study vault on 2 threads" "${vault[@]}" --visibility rays --threads 2 --json --out vault2
+cp stdout.txt result.json
+holds "--json of study vault is JSON" result.json 'json.length === 1 && json[0].schema === "retrolux/vault-solution-1"'
+same "study vault: 1 and 2 threads, identical tables" vault1 vault2 "${tables[@]}"
+head -1 vault1/evaluations.csv | grep -qx 'phase,phi_b_deg,theta1_deg,theta2_deg,cost,area_pct,area_cm2,min_angle_deg,min_angle_nominal_deg,recon_error_mm,combination,rot_x_deg,rot_y_deg,rot_z_deg,mask' &&
+  good "evaluations.csv: columns" || bad "evaluations.csv: columns" "$(head -1 vault1/evaluations.csv)"
+head -1 vault1/orientations.csv | grep -qx 'rot_x_deg,rot_y_deg,rot_z_deg,cost,combination,mask' &&
+  good "orientations.csv: columns" || bad "orientations.csv: columns" "$(head -1 vault1/orientations.csv)"
+[ "$(grep -c '^1,' vault1/evaluations.csv)" -eq 8 ] && good "evaluations.csv: 2 x 2 x 2 placements of phase 1" ||
+  bad "evaluations.csv: 2 x 2 x 2 placements of phase 1" "$(grep -c '^1,' vault1/evaluations.csv)"
+[ "$(wc -l <vault1/orientations.csv)" -eq 4 ] && good "orientations.csv: three orientations" ||
+  bad "orientations.csv: three orientations" "$(wc -l <vault1/orientations.csv) lines"
+holds "solution.json has placement and cost" vault1/solution.json \
+  'json.cost > 0 && json.combination.length >= 3 && ["phi_b_deg", "theta1_deg", "theta2_deg"].every(k => json.placement[k] > 0)'
+node -e "
+const rows = require('fs').readFileSync('vault1/evaluations.csv', 'utf8').trim().split('\n').slice(1).map(row => Number(row.split(',')[4]));
+process.exit(Math.abs(Math.max(...rows) - $(cost vault1)) < 1e-4 ? 0 : 1)" && good "the optimum is the best row" || bad "the optimum is the best row" "$(cost vault1)"
+[ -s vault1/report.html ] && good "report.html of the vault" || bad "report.html of the vault" "missing"
+holds "run.json: all tasks are new" vault1/run.json 'json.tasks.done_before === 0 && json.tasks.done_now > 0'
+cp -r vault1 vault_before
+vault "study vault again" "${vault[@]}" --visibility rays --out vault1
+holds "no task anew" vault1/run.json 'json.tasks.done_before > 0 && json.tasks.done_now === 0'
+same "study vault again: identical tables" vault_before vault1 "${tables[@]}" manifest.json
+vault "study vault with finer samples, same folder" study vault --scenario tiny.json --sample-area 20 --quick --visibility rays --out vault1
+holds "other samples, other tasks" vault1/run.json 'json.tasks.done_before === 0'
+
+vault "study vault --placement" "${vault[@]}" --visibility rays --placement vault2/solution.json --out vault_placed
+[ "$(cost vault_placed)" = "$(cost vault2)" ] && good "--placement: the same cost" || bad "--placement: the same cost" "$(cost vault_placed), not $(cost vault2)"
+[ "$(wc -l <vault_placed/evaluations.csv)" -eq 2 ] && good "--placement: no search" || bad "--placement: no search" "$(wc -l <vault_placed/evaluations.csv) lines"
+vault "study vault --mask both" "${vault[@]}" --visibility rays --phase 1 --mask both --out vault_both
+node -e "
+const columns = file => require('fs').readFileSync('vault_both/' + file, 'utf8').trim().split('\n').slice(1).map(row => row.split(',')[4]);
+const [worse, face, body] = ['evaluations.csv', 'evaluations_face.csv', 'evaluations_body.csv'].map(columns);
+process.exit(worse.length === 8 && worse.every((cost, i) => Number(cost) === Math.min(face[i], body[i])) ? 0 : 1)" &&
+  good "--mask both: the worse counts" || bad "--mask both: the worse counts" "$(tail -n +1 vault_both/evaluations*.csv | head -c 300)"
+vault "study vault --mask FILE" "${vault[@]}" --visibility rays --mask masks/face.glb --out vault_file
+holds "--mask FILE: nearly the cost of the same mask by name" vault_file/solution.json "Math.abs(json.cost - $(cost vault2)) < 0.01 * $(cost vault2)"
+for rule in triangles ids; do
+  vault "study vault --visibility $rule" "${vault[@]}" --visibility $rule --out "vault_$rule"
+  holds "--visibility $rule: nearly the cost of rays" "vault_$rule/solution.json" "Math.abs(json.cost - $(cost vault2)) < 0.05 * $(cost vault2)"
+done
+
+# scenario NAME MERGE: the tiny one with a JavaScript object merged over it.
+scenario() {
+  node -e "
+const merge = (over, patch) => { for (const [key, value] of Object.entries(patch))
+  over[key] = value !== null && value.constructor === Object ? merge(over[key] ?? {}, value) : value; return over; };
+const fs = require('fs');
+fs.writeFileSync('$1.json', JSON.stringify(merge(JSON.parse(fs.readFileSync('tiny.json', 'utf8')), $2)));" || bad "scenario $1" "not made"
+}
+scenario huge '{masks: {face: {mesh: "sphere", scale: 3}}}'
+run study vault --scenario huge.json --sample-area 400 --quick --visibility rays --out vault_huge
+code=$?
+if [ $code -ne 0 ]; then bad "a mask larger than the pictures" "exit code $code: $(head -c 300 stderr.txt)"
+elif [ "$(wc -l <stderr.txt)" -ne 1 ] || ! grep -qE "$cut" stderr.txt; then bad "a mask larger than the pictures" "on stderr: $(head -c 300 stderr.txt)"
+else good "a mask larger than the pictures"; fi
+holds "every view is cut" vault_huge/solution.json 'json.views === 27 && json.views_cut === 27'
+scenario no_body '{masks: {body: null}}'
+refuse "a mask that was taken away" "--mask body: neither.*expected face, both" bad study vault --scenario no_body.json --mask body --quick --out bad
+
+# vault_bad NAME PATTERN MERGE: the tiny scenario with a change is refused.
+vault_bad() { scenario wrong "$3"; refuse "$1" "$2" bad study vault --scenario wrong.json --sample-area 40 --quick --visibility rays --out bad; }
+vault_bad "empty interval" 'wrong\.json: /search/phi_b_deg: found an empty interval: from 60 to 40; expected from <= to' '{search: {phi_b_deg: {from: 60, to: 40}}}'
+vault_bad "empty interval of a mask" '/masks/face/z_deg: found an empty interval.*expected' '{masks: {face: {z_deg: {to: -90}}}}'
+vault_bad "step of 0" '/search/theta_deg: found the step 0; expected a step above 0' '{search: {theta_deg: {step: 0}}}'
+vault_bad "refined step of 0" '/search/refined_theta_step_deg: found the step 0; expected' '{search: {refined_theta_step_deg: 0}}'
+vault_bad "theta 181" '/search/theta_deg/to: found number 181; expected a number from 0 to 180' '{search: {theta_deg: {to: 181}}}'
+vault_bad "one camera" '/cameras/count: found one camera; expected at least two' '{cameras: {count: 1}}'
+vault_bad "a camera that is not there" '/combinations/extra/0/2: found camera 10; expected a camera from 1 to 9' '{combinations: {extra: [[1, 2, 10]]}}'
+vault_bad "unknown key in a scenario" "/search: found the unknown key 'phi_d'; expected" '{search: {phi_d: 3}}'
+vault_bad "a base that is not there" '/base: no such scenario; expected.*1a, 1b, 2' '{base: "nobase"}'
+vault_bad "a scenario that is its own base" '/base: more than 8 bases; expected' '{base: "wrong.json"}'
+vault_bad "a nozzle whose radii fall" '\(slim\): /nozzle: found radii 1000.*expected' '{variations: [{name: "slim", change: {nozzle: {tip_radius_mm: 1000}}}]}'
+vault_bad "two known errors" 'reconstruction error: 2 known points; expected three' '{reconstruction_error: {points: [[30, 4], [90, 2]]}}'
+vault_bad "nothing that can be built" '/search: no placement that can be built.*below 5000 mm; expected' '{rigs: {min_height_mm: 5000}}'
+refuse "unknown simulation" '9z: no such scenario.*expected.*1a, 1b, 2, 3a, 3b, 4, 5' bad study vault --simulation 9z --quick --out bad
+refuse "no simulation" 'no simulation; expected --simulation' bad study vault --quick --out bad
+refuse "simulation and scenario" '--simulation excludes --scenario' bad "${vault[@]}" --simulation 1a --out bad
+refuse "study vault without --out" '--out.*required' bad "${vault[@]}"
+refuse "study vault to an unwritable place" 'file/x.*expected' file/x "${vault[@]}" --out file/x
+refuse "--mask of a missing file" '--mask gone\.ply: neither.*expected body, face, both, or a mesh file' bad "${vault[@]}" --mask gone.ply --out bad
+refuse "--mask of a text" "text\.png.*'\.png'; expected \.glb" bad "${vault[@]}" --mask text.png --out bad
+printf 'v 0 0 0\nv 100 0 0\nv 200 0 0\nf 1 2 3\n' >flat.obj
+refuse "--mask without area" 'flat\.obj: a mesh without area; expected a surface' bad "${vault[@]}" --mask flat.obj --out bad
+for size in 64 64x 0x48 -64x48 64x48x2 nanxnan 99999x48 4294967360x48; do
+  refuse "study vault, size $size" "--size.*${size%%x*}.*expected" bad "${vault[@]}" --size "$size" --out bad
+done
+echo '{"cost": 3}' >nowhere.json
+refuse "--placement without a placement" "nowhere\.json: /: found no key 'placement'; expected" bad "${vault[@]}" --placement nowhere.json --out bad
+echo '{"placement": {"phi_b_deg": 40, "theta1_deg": 181, "theta2_deg": 70}}' >nowhere.json
+refuse "--placement beyond 180 degrees" 'nowhere\.json: /placement/theta1_deg: found number 181; expected' bad "${vault[@]}" --placement nowhere.json --out bad
+refuse "--placement of a missing file" 'gone\.json: cannot be read.*expected' bad "${vault[@]}" --placement gone.json --out bad
+
+# ----------------------------------------------------------------------------------------------------------------- areas
+areas=(study areas --triangles 1280 --sample-area 1 --size 160x120)
+succeed "study areas on 1 thread" "${areas[@]}" --threads 1 --out areas1
+succeed "study areas on 2 threads" "${areas[@]}" --threads 2 --json --out areas2
+cp stdout.txt result.json
+holds "--json of study areas is JSON" result.json 'json.schema === "retrolux/area-study-1" && json.targets.length > 20'
+same "study areas: 1 and 2 threads, identical tables" areas1 areas2 areas.csv summary.json
+head -1 areas1/areas.csv | grep -qx 'test,case,psi_deg,rendered_mm2,analytic_mm2,analytic_far_mm2,rel_error' &&
+  good "areas.csv: columns" || bad "areas.csv: columns" "$(head -1 areas1/areas.csv)"
+# 1280 flat triangles lack half a per cent of the sphere.
+grep '^single,camera 1,' areas1/areas.csv | awk -F, '{exit !($7 > -0.008 && $7 < -0.002 && $5 > 58904 && $5 < 58906)}' &&
+  good "areas.csv: one camera's cap" || bad "areas.csv: one camera's cap" "$(grep '^single,camera 1,' areas1/areas.csv)"
+[ -s areas1/report.html ] && good "study areas: a report" || bad "study areas: a report" "none"
+rm areas2/summary.json
+succeed "study areas again" "${areas[@]}" --out areas2
+grep -q '[0-9]* of [0-9]* tasks were done before' stdout.txt && good "nothing is done twice" || bad "nothing is done twice" "$(tail -2 stdout.txt)"
+same "study areas again: the same tables" areas1 areas2 areas.csv summary.json
+refuse "study areas: bad --size" '--size 640by480: expected WIDTHxHEIGHT' bad study areas --size 640by480 --out bad
+refuse "study areas: --size of nothing" '--size 0x0: expected' bad study areas --size 0x0 --out bad
+refuse "study areas: --triangles 1000" '--triangles 1000; expected one of.*1280.*81920' bad study areas --triangles 1000 --out bad
+refuse "study areas: unknown rule" '--visibility.*magic.*ids,rays,triangles' bad study areas --visibility magic --out bad
+refuse "study areas without --out" '--out.*required' bad study areas
+
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers"; do
+for command in "" render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

@@ -87,6 +87,7 @@ function describe(error) {
   const { params } = error;
   const detail =
     params.additionalProperty ??
+    params.unevaluatedProperty ??
     params.allowedValues?.join(', ') ??
     JSON.stringify(params.allowedValue) ??
     error.propertyName ??
@@ -172,6 +173,44 @@ function run(work, ...args) {
   return null;
 }
 
+/** A scenario of three orientations and a few placements. */
+const TINY_SCENARIO = {
+  schema: 'retrolux/scenario-1',
+  base: '1a',
+  name: 'tiny',
+  cameras: { width_px: 160, height_px: 120 },
+  masks: { face: { x_deg: [0], y_deg: [-10], z_deg: { from: 0, to: 180, step: 90 } } },
+  search: {
+    phi_b_deg: { from: 40, to: 60, step: 20 },
+    theta_deg: { from: 31.67, to: 70.52, step: 38.85 },
+    refined_phi_b_step_deg: 10,
+    refined_theta_step_deg: 38.85,
+    refined_optima: 1,
+  },
+  variations: [],
+};
+
+function checkVault(schemas, work) {
+  const change = { nozzle: { tip_radius_mm: 80 } };
+  const varied = structuredClone(TINY_SCENARIO);
+  varied.name = 'varied';
+  varied.search.phi_b_deg.to = 80; // more than a step from the optimum: there is a runner-up
+  varied.variations = [{ name: 'slim', change }];
+  for (const scenario of [TINY_SCENARIO, varied])
+    fs.writeFileSync(path.join(work, `${scenario.name}.json`), JSON.stringify(scenario));
+  const vault = ['study', 'vault', '--visibility', 'rays', '--sample-area', '40'];
+  const quick = [...vault, '--scenario', 'tiny.json', '--quick', '--json', '--out', 'vault-quick'];
+  const output = run(work, ...quick);
+  if (output !== null) {
+    for (const solution of JSON.parse(output))
+      checkDocument(schemas, 'standard output of study vault --json', solution);
+  }
+  run(work, ...vault, '--scenario', 'varied.json', '--phase', '1', '--out', 'vault-whole');
+  const found = path.join(work, 'vault-whole', 'solution.json');
+  if (!fs.existsSync(found)) return;
+  checkRefused(schemas, 'solution', JSON.parse(fs.readFileSync(found, 'utf8')), BAD_SOLUTIONS);
+}
+
 function checkOutputs(schemas, work) {
   run(work, 'render', 'oval', '--size', '64x48', '--spp', '1', '--out', 'small');
   run(work, 'render', 'oval', '--size', '64x48', '--ids-only', '--out', 'ids');
@@ -187,7 +226,75 @@ function checkOutputs(schemas, work) {
     const output = run(work, 'study', 'markers', ...coarse, '--json', '--out', 'study');
     if (output !== null) checkText(schemas, 'standard output of study markers --json', output);
   }
+  checkVault(schemas, work);
+  const small = ['--triangles', '1280', '--sample-area', '4', '--size', '160x120'];
+  const areas = run(work, 'study', 'areas', ...small, '--json', '--out', 'areas');
+  if (areas !== null) checkText(schemas, 'standard output of study areas --json', areas);
   checkFolder(schemas, work, 'out');
+}
+
+/** What is wrong with a scenario or solution; makes it so. */
+const BAD_SCENARIOS = {
+  'a step of 0': (s) => (s.search.theta_deg.step = 0),
+  'theta 181': (s) => (s.search.theta_deg.to = 181),
+  'one camera': (s) => (s.cameras.count = 1),
+  'half a camera': (s) => (s.cameras.count = 8.5),
+  'an unknown arrangement': (s) => (s.cameras.arrangement = 'around'),
+  'an unknown key of the search': (s) => (s.search.phi_d = 3),
+  'an unknown key of a mask': (s) => (s.masks.face.colour = 'red'),
+  'a mask without a mesh': (s) => delete s.masks.face.mesh,
+  'no mask': (s) => (s.masks = {}),
+  'a mask that is null, with no base': (s) => (s.masks.body = null),
+  'no angle': (s) => (s.masks.face.x_deg = []),
+  'an interval without its end': (s) => delete s.masks.face.z_deg.to,
+  'rotations about x twice': (s) => (s.masks.face.order = 'xxz'),
+  'no nozzle': (s) => delete s.nozzle,
+  'a nozzle without its gap': (s) => delete s.nozzle.gap_mm,
+  'a snout without length': (s) => (s.nozzle.snout_length_mm = 0),
+  'a camera twice': (s) => (s.combinations.extra = [[1, 1, 2]]),
+  'camera 0': (s) => (s.combinations.extra = [[0, 1, 2]]),
+  'five cameras together': (s) => (s.combinations.size = 5),
+  'two known errors': (s) => (s.reconstruction_error.points.length = 2),
+  'an error without its angle': (s) => (s.reconstruction_error.points[0] = [1.5]),
+  'a variation without its change': (s) => delete s.variations[0].change,
+  'an unknown key of a change': (s) => (s.variations[0].change.nozle = {}),
+  'a base that is a number': (s) => (s.base = 1),
+};
+const BAD_SOLUTIONS = {
+  'a placement without theta_2': (s) => delete s.placement.theta2_deg,
+  'theta 181': (s) => (s.placement.theta1_deg = 181),
+  'a cost that is null': (s) => (s.cost = null),
+  'three rigs': (s) => s.rig_heights_mm.push(2000),
+  'a camera that is text': (s) => (s.combination = ['1']),
+  'camera 0': (s) => (s.combination = [0, 1, 2]),
+  'a row of the thesis with an unknown key': (s) => (s.thesis[0].no_such_key = 0),
+  'a row of the thesis without what it prints': (s) => delete s.thesis[0].printed,
+  'a runner-up without a name': (s) => delete s.runner_up.name,
+  'a moved optimum without a name': (s) => delete s.sensitivity[0].name,
+  'no snapped placement, as 0': (s) => (s.snapped = 0),
+  'a refinement without its cost': (s) => delete s.refined.cost,
+  'a variation without a placement': (s) => delete s.variations[0].placement,
+};
+
+/** A good document, and what is refused of it. */
+function checkRefused(schemas, name, good, wrongs) {
+  const validate = schemas.get(good.schema)?.validate;
+  if (!validate?.(good)) violations.push(`${name}: to be good before it is made wrong`);
+  for (const [what, spoil] of Object.entries(wrongs)) {
+    const wrong = structuredClone(good);
+    spoil(wrong);
+    if (validate?.(wrong)) violations.push(`${good.schema}: allows a ${name} with ${what}`);
+  }
+}
+
+/** The built-in scenarios, and the vault that they share. */
+function checkScenarios(schemas) {
+  const folder = path.join(ROOT, 'scenes', 'data');
+  const read = (file) => withoutComments(fs.readFileSync(path.join(folder, file), 'utf8'));
+  const files = fs.readdirSync(path.join(folder, 'scenarios')).sort();
+  for (const file of ['vault.json', ...files.map((file) => `scenarios/${file}`)])
+    checkText(schemas, `scenes/data/${file}`, read(file));
+  checkRefused(schemas, 'scenario', JSON.parse(read('vault.json')), BAD_SCENARIOS);
 }
 
 /** Both schemas say the same of a material, but for words. */
@@ -215,6 +322,7 @@ const schemas = loadSchemas();
 checkMaterials(schemas);
 for (const file of ['scenes/data/markers.json', 'materials/data/library.json'])
   checkText(schemas, file, withoutComments(fs.readFileSync(path.join(ROOT, file), 'utf8')));
+checkScenarios(schemas);
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'retrolux_schemas.'));
 try {
   checkOutputs(schemas, work);
