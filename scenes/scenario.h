@@ -78,7 +78,7 @@ struct RotationLimit {
   double z_at_least_deg = 0.0;  // ... the chair turns from here on only
 };
 struct MaskSpec {
-  std::string mesh;  // a name of masks.h, or a file beside the scenario
+  std::string mesh;         // a name of masks.h, or a file beside the scenario
   std::string unit = "mm";  // of a file other than glTF
   double scale = 1.0;
   double relief = 0.75;       // of the procedural face

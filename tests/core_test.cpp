@@ -14,6 +14,7 @@
 #include "core/sampler.h"
 #include "core/sampling.h"
 #include "tests/message_of.h"
+#include "tests/own_folder.h"
 #include "tests/statistics.h"
 
 namespace retrolux {
@@ -22,9 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path Scratch(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / "retrolux_core_test";
-  fs::create_directories(folder);
-  return folder / name;
+  return OwnFolder() / name;
 }
 
 CameraModel ThesisCamera() {

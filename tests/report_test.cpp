@@ -9,6 +9,7 @@
 #include "core/data_path.h"
 #include "core/error.h"
 #include "core/image_file.h"
+#include "tests/own_folder.h"
 
 namespace retrolux {
 namespace {
@@ -131,7 +132,7 @@ class ReportWithoutLibrary : public testing::Test {
  protected:
   void SetUp() override {
     namespace fs = std::filesystem;
-    root_ = fs::path(testing::TempDir()) / "report_without_library";
+    root_ = OwnFolder() / "report_without_library";
     const fs::path page = root_ / "analysis/report";
     fs::create_directories(page / "node_modules/plotly.js-dist-min");
     for (const char* name :
@@ -170,7 +171,7 @@ TEST_F(ReportWithoutLibrary, SaysWhatToRun) {
 }
 
 TEST(Report, WritesTheWholeFileOrNone) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "report.html";
+  const std::filesystem::path file = OwnFolder() / "report.html";
   SmallReport().Write(file);
   EXPECT_EQ(ReadTextFile(file), SmallReport().Html());
   std::filesystem::remove(file);

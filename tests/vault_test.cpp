@@ -14,6 +14,7 @@
 #include "scenes/masks.h"
 #include "scenes/mesh_shapes.h"
 #include "tests/message_of.h"
+#include "tests/own_folder.h"
 
 namespace retrolux {
 namespace {
@@ -24,7 +25,7 @@ using testing::HasSubstr;
 
 // A scenario file over 1a.
 std::filesystem::path ScenarioFile(const std::string& name, const std::string& changes) {
-  const auto file = std::filesystem::path(testing::TempDir()) / (name + ".json");
+  const auto file = OwnFolder() / (name + ".json");
   std::ofstream(file) << R"({"schema": "retrolux/scenario-1", "base": "1a", )" << changes << "}";
   return file;
 }
