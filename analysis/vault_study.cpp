@@ -6,240 +6,10 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/json_reader.h"
-#include "scenes/mask_mesh.h"
 
 namespace retrolux {
 
 namespace {
-
-// Of the continuous refinement: a tenth of the finest step of phi_b that the thesis reports.
-constexpr double kRefinementTolerance_deg = 0.1;
-constexpr int kMostRefinements = 60;
-
-std::string KeyOf(const MaskSpec& spec, const std::filesystem::path& file) {
-  return fmt::format("{} {} {} {} {}", spec.mesh, spec.unit, spec.scale, spec.relief,
-                     file.parent_path().string());
-}
-
-}  // namespace
-
-VisibilityStore& MaskStores::For(const Scenario& scenario, const std::string& mask_name) {
-  const MaskSpec& spec = scenario.Mask(mask_name);
-  std::unique_ptr<Entry>& entry = entries_[KeyOf(spec, scenario.file)];
-  if (!entry) {
-    entry = std::make_unique<Entry>(
-        Mask(mask_name, MaskMesh(spec, scenario.file), rule_, part_area_mm2_));
-  }
-  return entry->store;
-}
-
-int64_t MaskStores::Made() const {
-  int64_t sum = 0;
-  for (const auto& [key, entry] : entries_) sum += entry->store.Made();
-  return sum;
-}
-
-int64_t MaskStores::Asked() const {
-  int64_t sum = 0;
-  for (const auto& [key, entry] : entries_) sum += entry->store.Asked();
-  return sum;
-}
-
-size_t PlacementResult::WorstMask() const {
-  size_t worst = 0;
-  for (size_t i = 1; i < by_mask.size(); ++i) {
-    if (by_mask[i].Cost() < by_mask[worst].Cost()) worst = i;
-  }
-  return worst;
-}
-
-namespace {
-
-nlohmann::json ToJson(const Placement& p) {
-  return {p.phi_b_deg, p.theta1_deg, p.theta2_deg};
-}
-
-nlohmann::json ToJson(const OrientationWorth& worth) {
-  return {worth.cost_mm2, worth.area_mm2, worth.combination};
-}
-
-OrientationWorth WorthFrom(const nlohmann::json& json) {
-  return {json[0].get<double>(), json[1].get<double>(), json[2].get<CameraSet>()};
-}
-
-// What a scenario's numbers are named by: all that an evaluation depends on.
-nlohmann::json Physics(const Scenario& scenario) {
-  nlohmann::json document = scenario.document;
-  for (const char* key : {"name", "description", "search", "variations", "thesis", "masks"})
-    document.erase(key);
-  return document;
-}
-
-// A room with the masks in it.
-struct Room {
-  Scenario scenario;
-  std::vector<PlacementSearch> searches;  // by mask
-
-  Room(Scenario the_scenario, const std::vector<std::string>& masks, MaskStores& stores)
-      : scenario(std::move(the_scenario)) {
-    for (const std::string& mask : masks)
-      searches.emplace_back(scenario, mask, stores.For(scenario, mask));
-  }
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
-};
-
-// Placements of one phi_b, and one nearby whose orientations are looked at first.
-struct Slice {
-  std::vector<Placement> placements;
-  Placement hint;
-};
-
-// The hint of a slice is the nearest of `hints`, or without any its own middle.
-std::vector<Slice> SlicesOf(const std::vector<Placement>& placements,
-                            const std::vector<Placement>& hints) {
-  std::map<double, Slice> by_phi_b;
-  for (const Placement& placement : placements)
-    by_phi_b[placement.phi_b_deg].placements.push_back(placement);
-  std::vector<Slice> slices;
-  for (auto& [phi_b_deg, slice] : by_phi_b) {
-    const auto away = [phi_b = phi_b_deg](const Placement& hint) {
-      return std::abs(hint.phi_b_deg - phi_b);
-    };
-    const auto nearest =
-        std::min_element(hints.begin(), hints.end(),
-                         [&](const Placement& a, const Placement& b) { return away(a) < away(b); });
-    slice.hint = nearest == hints.end() ? slice.placements[slice.placements.size() / 2] : *nearest;
-    slices.push_back(std::move(slice));
-  }
-  return slices;
-}
-
-// Runs evaluations as tasks of a manifest.
-class Evaluator {
- public:
-  Evaluator(const std::filesystem::path& folder, const nlohmann::json& options, Progress& progress)
-      : manifest_(folder, "vault", options), progress_(progress) {}
-
-  // One task for each slice and mask.
-  std::vector<PlacementResult> Evaluate(const std::string& stage, int phase, const Room& room,
-                                        const std::vector<Slice>& slices) {
-    std::vector<Task> tasks;
-    std::vector<std::pair<const Slice*, const PlacementSearch*>> work;
-    for (const Slice& slice : slices) {
-      for (const PlacementSearch& search : room.searches) {
-        nlohmann::json placements = nlohmann::json::array();
-        for (const Placement& p : slice.placements) placements.push_back(ToJson(p));
-        tasks.push_back({fmt::format("{}: {}, phi_b {}", stage, search.MaskName(),
-                                     slice.placements.front().phi_b_deg),
-                         Definition(search, {{"placements", placements}})});
-        work.emplace_back(&slice, &search);
-      }
-    }
-    const auto evaluate = [&](size_t task) {
-      const auto& [slice, search] = work[task];
-      nlohmann::json rows = nlohmann::json::array();
-      for (const Evaluation& e :
-           search->Evaluate(slice->placements, search->Orientations(slice->hint)))
-        rows.push_back({ToJson(e.worth), e.rotation});
-      placements_ += static_cast<int64_t>(slice->placements.size());
-      orientations_ += static_cast<int64_t>(slice->placements.size() * search->Rotations().size());
-      return rows;
-    };
-    const std::vector<nlohmann::json> rows = Run(stage, tasks, evaluate);
-    std::vector<PlacementResult> results;
-    const size_t masks = room.searches.size();
-    for (size_t s = 0; s < slices.size(); ++s) {
-      for (size_t i = 0; i < slices[s].placements.size(); ++i) {
-        PlacementResult result;
-        result.phase = phase;
-        for (size_t m = 0; m < masks; ++m) {
-          const nlohmann::json& row = rows[s * masks + m][i];
-          result.by_mask.push_back(room.searches[m].Described(
-              slices[s].placements[i], WorthFrom(row[0]), row[1].get<int>()));
-        }
-        results.push_back(std::move(result));
-      }
-    }
-    return results;
-  }
-
-  // One task for each mask: every orientation of a placement.
-  void AddOrientations(const std::string& stage, const Room& room, NamedResult& named) {
-    std::vector<Task> tasks;
-    for (const PlacementSearch& search : room.searches) {
-      tasks.push_back({fmt::format("{}: {}", stage, search.MaskName()),
-                       Definition(search, {{"orientations", ToJson(named.result.Where())}})});
-    }
-    const auto rows = Run(stage, tasks, [&](size_t mask) {
-      nlohmann::json worths = nlohmann::json::array();
-      for (const OrientationWorth& worth : room.searches[mask].Orientations(named.result.Where()))
-        worths.push_back(ToJson(worth));
-      return worths;
-    });
-    for (const nlohmann::json& mask : rows) {
-      named.orientations.emplace_back();
-      for (const nlohmann::json& row : mask) named.orientations.back().push_back(WorthFrom(row));
-    }
-  }
-
-  Refinement Refine(const Room& room, const Placement& start) {
-    nlohmann::json start_of = {{"refine", ToJson(start)},
-                               {"tolerance_deg", kRefinementTolerance_deg},
-                               {"most", kMostRefinements},
-                               {"masks", nlohmann::json::array()}};
-    for (const PlacementSearch& search : room.searches)
-      start_of["masks"].push_back(Definition(search, {}));
-    const auto rows = Run("between the grid", {{"continuous refinement", start_of}}, [&](size_t) {
-      std::vector<std::vector<OrientationWorth>> known;
-      for (const PlacementSearch& search : room.searches)
-        known.push_back(search.Orientations(start));
-      const auto cost = [&](const Placement& placement) {
-        double least = 1e300;
-        for (size_t i = 0; i < known.size(); ++i)
-          least = std::min(least, room.searches[i].Evaluate(placement, known[i]).Cost());
-        return least;
-      };
-      const Refinement r =
-          RefinePlacement(room.scenario, start, cost, kRefinementTolerance_deg, kMostRefinements);
-      placements_ += r.evaluations;
-      for (const PlacementSearch& search : room.searches)
-        orientations_ += r.evaluations * static_cast<int64_t>(search.Rotations().size());
-      return nlohmann::json{ToJson(r.placement), r.cost, r.evaluations};
-    });
-    const nlohmann::json& row = rows.front();
-    return {{row[0][0].get<double>(), row[0][1].get<double>(), row[0][2].get<double>()},
-            row[1].get<double>(),
-            row[2].get<int>()};
-  }
-
-  TaskReport Report() const { return manifest_.Report(); }
-  int64_t Placements() const { return placements_; }
-  int64_t OrientationsSeen() const { return orientations_; }
-
- private:
-  static nlohmann::json Definition(const PlacementSearch& search, nlohmann::json what) {
-    what["room"] = Physics(search.TheScenario());
-    what["mask"] = search.TheMask().Hash();
-    nlohmann::json rotations = nlohmann::json::array();
-    for (const MaskRotation& r : search.Rotations())
-      rotations.push_back({r.x_deg, r.y_deg, r.z_deg});
-    what["rotations"] = {search.TheScenario().Mask(search.MaskName()).order, rotations};
-    return what;
-  }
-
-  std::vector<nlohmann::json> Run(const std::string& stage, const std::vector<Task>& tasks,
-                                  const TaskManifest::Work& work) {
-    TaskLoop loop;
-    loop.parallel = false;  // each uses all threads itself
-    return manifest_.Run(stage, tasks, work, progress_, loop);
-  }
-
-  TaskManifest manifest_;
-  Progress& progress_;
-  int64_t placements_ = 0, orientations_ = 0;
-};
 
 const PlacementResult& BestOf(const std::vector<PlacementResult>& results) {
   return *std::max_element(results.begin(), results.end(),
@@ -326,7 +96,7 @@ void CountCutViews(const Room& room, VaultStudy& study) {
 }
 
 // One name for the placements that a study looks at beside its grid.
-std::vector<NamedResult> EvaluateNamed(Evaluator& evaluator, const std::string& stage,
+std::vector<NamedResult> EvaluateNamed(PlacementTasks& tasks, const std::string& stage,
                                        const Room& room,
                                        const std::vector<std::pair<std::string, Placement>>& named,
                                        const Placement& hint) {
@@ -335,18 +105,18 @@ std::vector<NamedResult> EvaluateNamed(Evaluator& evaluator, const std::string& 
   Slice slice;
   slice.hint = hint;
   for (const auto& [name, placement] : named) slice.placements.push_back(placement);
-  std::vector<PlacementResult> evaluated = evaluator.Evaluate(stage, 0, room, {slice});
+  std::vector<PlacementResult> evaluated = tasks.Evaluate(stage, 0, room, {slice});
   for (size_t i = 0; i < named.size(); ++i)
     results.push_back({named[i].first, std::move(evaluated[i]), {}});
   return results;
 }
 
-void EvaluateVariations(Evaluator& evaluator, const Scenario& scenario, MaskStores& stores,
+void EvaluateVariations(PlacementTasks& tasks, const Scenario& scenario, MaskStores& stores,
                         VaultStudy& study) {
   for (const Variation& variation : scenario.variations) {
     const Room room(scenario.With(variation), study.options.masks, stores);
     const std::vector<PlacementResult> results =
-        evaluator.Evaluate(variation.name, 1, room, SlicesOf(PlacementGrid(room.scenario), {}));
+        tasks.Evaluate(variation.name, 1, room, SlicesOf(PlacementGrid(room.scenario), {}));
     const Placement& ours = study.best.result.Where();
     const auto distance = [&](const Placement& p) {
       return std::abs(p.phi_b_deg - ours.phi_b_deg) + std::abs(p.theta1_deg - ours.theta1_deg) +
@@ -374,7 +144,7 @@ double MeanCost(const NamedResult& named) {
 // The highest cost. Where the worst orientation is seen best by cameras of one rig alone, the
 // height of the other rig does not matter to it and several placements are equal: then the one that
 // is best in the mean.
-NamedResult Optimum(Evaluator& evaluator, const Room& room,
+NamedResult Optimum(PlacementTasks& tasks, const Room& room,
                     const std::vector<PlacementResult>& results) {
   const double highest = BestOf(results).Cost();
   std::optional<NamedResult> best;
@@ -382,22 +152,22 @@ NamedResult Optimum(Evaluator& evaluator, const Room& room,
     if (result.Cost() < highest) continue;
     NamedResult tied = {"optimum", result, {}};
     const Placement& at = result.Where();
-    evaluator.AddOrientations(fmt::format("all orientations at {:g} {:g} {:g}", at.phi_b_deg,
-                                          at.theta1_deg, at.theta2_deg),
-                              room, tied);
+    tied.orientations = tasks.Orientations(fmt::format("all orientations at {:g} {:g} {:g}",
+                                                       at.phi_b_deg, at.theta1_deg, at.theta2_deg),
+                                           room, at);
     if (!best || MeanCost(tied) > MeanCost(*best)) best = std::move(tied);
   }
   return *best;
 }
 
-void Search(Evaluator& evaluator, const Room& room, VaultStudy& study) {
+void Search(PlacementTasks& tasks, const Room& room, VaultStudy& study) {
   const Scenario& scenario = room.scenario;
   std::vector<Placement> centres;
   if (study.options.placement) {
     centres = {*study.options.placement};
-    study.results = evaluator.Evaluate("placement", 1, room, {{centres, centres.front()}});
+    study.results = tasks.Evaluate("placement", 1, room, {{centres, centres.front()}});
   } else {
-    study.results = evaluator.Evaluate("phase 1", 1, room, SlicesOf(PlacementGrid(scenario), {}));
+    study.results = tasks.Evaluate("phase 1", 1, room, SlicesOf(PlacementGrid(scenario), {}));
     const std::vector<Placement> grid = PlacesOf(study.results);
     for (const size_t i : LocalOptima(scenario, grid, CostsOf(study.results),
                                       static_cast<size_t>(scenario.search.refined_optima)))
@@ -405,8 +175,7 @@ void Search(Evaluator& evaluator, const Room& room, VaultStudy& study) {
   }
   if (study.options.refine) {
     const std::vector<Placement> around = AroundAll(scenario, centres, PlacesOf(study.results));
-    for (PlacementResult& result :
-         evaluator.Evaluate("phase 2", 2, room, SlicesOf(around, centres)))
+    for (PlacementResult& result : tasks.Evaluate("phase 2", 2, room, SlicesOf(around, centres)))
       study.results.push_back(std::move(result));
   }
   if (BestOf(study.results).Worst().worth.combination == 0) {
@@ -416,25 +185,26 @@ void Search(Evaluator& evaluator, const Room& room, VaultStudy& study) {
                                      scenario.combinations.min_separation_deg),
                          "a smaller min_separation_deg");
   }
-  study.best = Optimum(evaluator, room, study.results);
+  study.best = Optimum(tasks, room, study.results);
   std::vector<PlacementResult> far;
   for (const PlacementResult& result : study.results) {
     if (!Near(scenario, result.Where(), study.best.result.Where())) far.push_back(result);
   }
   if (far.empty()) return;
   study.runner_up = NamedResult{"best away from the optimum", BestOf(far), {}};
-  evaluator.AddOrientations("runner-up, all orientations", room, *study.runner_up);
+  study.runner_up->orientations =
+      tasks.Orientations("runner-up, all orientations", room, study.runner_up->result.Where());
 }
 
-void AddThesis(Evaluator& evaluator, const Room& room, VaultStudy& study) {
+void AddThesis(PlacementTasks& tasks, const Room& room, VaultStudy& study) {
   std::vector<std::pair<std::string, Placement>> rows;
   for (const ThesisSolution& row : room.scenario.thesis)
     rows.push_back({row.name, {row.phi_b_deg, row.theta1_deg, row.theta2_deg}});
   if (rows.empty()) return;
-  study.thesis =
-      EvaluateNamed(evaluator, "the thesis's placements", room, rows, rows.front().second);
+  study.thesis = EvaluateNamed(tasks, "the thesis's placements", room, rows, rows.front().second);
   for (NamedResult& row : study.thesis)
-    evaluator.AddOrientations(fmt::format("thesis {}, all orientations", row.name), room, row);
+    row.orientations = tasks.Orientations(fmt::format("thesis {}, all orientations", row.name),
+                                          room, row.result.Where());
 }
 
 }  // namespace
@@ -452,21 +222,21 @@ VaultStudy RunVaultStudy(const Scenario& scenario, const VaultStudyOptions& opti
     study.mask_area_mm2.push_back(search.TheMask().Samples().area_mm2);
     study.rotations.push_back(search.Rotations());
   }
-  Evaluator evaluator(folder, {{"rule", NameOf(room.searches.front().TheMask().Rule())}}, progress);
-  Search(evaluator, room, study);
-  AddThesis(evaluator, room, study);
+  PlacementTasks tasks(folder, {{"rule", NameOf(room.searches.front().TheMask().Rule())}},
+                       progress);
+  Search(tasks, room, study);
+  AddThesis(tasks, room, study);
   if (options.extras && !options.placement) {
     const Placement& best = study.best.result.Where();
-    study.sensitivity = EvaluateNamed(evaluator, "sensitivity", room, Moved(scenario, best), best);
+    study.sensitivity = EvaluateNamed(tasks, "sensitivity", room, Moved(scenario, best), best);
     study.snapped =
-        EvaluateNamed(evaluator, "snapped", room, {{"snapped", Snapped(scenario, best)}}, best)
-            .front();
-    study.refined = evaluator.Refine(room, best);
-    EvaluateVariations(evaluator, scenario, stores, study);
+        EvaluateNamed(tasks, "snapped", room, {{"snapped", Snapped(scenario, best)}}, best).front();
+    study.refined = tasks.Refine(room, best);
+    EvaluateVariations(tasks, scenario, stores, study);
   }
   CountCutViews(room, study);
-  study.tasks = evaluator.Report();
-  study.rates = {evaluator.Placements(), evaluator.OrientationsSeen(), stores.Made() - made,
+  study.tasks = tasks.Report();
+  study.rates = {tasks.Placements(), tasks.OrientationsSeen(), stores.Made() - made,
                  stores.Asked() - asked,
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
   return study;

@@ -5,50 +5,15 @@
 #include <optional>
 
 #include "analysis/placement_grid.h"
-#include "analysis/placement_refinement.h"
-#include "analysis/placement_search.h"
-#include "core/task_manifest.h"
+#include "analysis/placement_tasks.h"
 
 namespace retrolux {
-
-// Masks that were loaded, and what has been seen of them so far. Shared by studies that run one
-// after the other.
-class MaskStores {
- public:
-  MaskStores(VisibilityRule rule, double part_area_mm2)
-      : rule_(rule), part_area_mm2_(part_area_mm2) {}
-  // The store of a scenario's mask. InputError if its mesh can't be read or has no area.
-  VisibilityStore& For(const Scenario& scenario, const std::string& mask_name);
-  int64_t Made() const;
-  int64_t Asked() const;
-
- private:
-  struct Entry {
-    Mask mask;
-    VisibilityStore store;
-    Entry(Mask the_mask) : mask(std::move(the_mask)), store(mask) {}
-  };
-  VisibilityRule rule_;
-  double part_area_mm2_;
-  std::map<std::string, std::unique_ptr<Entry>> entries_;
-};
 
 struct VaultStudyOptions {
   std::vector<std::string> masks = {"face"};  // of the scenario; the worst of them decides
   bool refine = true;                         // phase 2, after phase 1
   bool extras = true;                         // sensitivity, variations, continuous refinement
   std::optional<Placement> placement;         // only this one (with `refine`: and those around it)
-};
-
-// A placement, with the worst orientation of each mask.
-struct PlacementResult {
-  int phase = 1;
-  std::vector<Evaluation> by_mask;  // as VaultStudyOptions::masks
-
-  const Placement& Where() const { return by_mask.front().placement; }
-  size_t WorstMask() const;
-  const Evaluation& Worst() const { return by_mask[WorstMask()]; }
-  double Cost() const { return Worst().Cost(); }
 };
 
 // A placement and all that is told of it beside its worst case.
