@@ -74,15 +74,6 @@ bool LieInAPlane(const std::vector<Point>& points) {
   return squares.minCoeff() <= kFlat * kFlat * squares.maxCoeff();
 }
 
-// Each begins with its smallest index, and they ascend: CGAL's order depends on addresses in
-// memory.
-std::vector<Facet> InFixedOrder(std::vector<Facet> facets) {
-  for (Facet& facet : facets)
-    std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
-  std::sort(facets.begin(), facets.end());
-  return facets;
-}
-
 TriangleMesh MeshOf(const std::vector<Point>& points, const std::vector<Facet>& facets) {
   TriangleMesh mesh;
   for (const Point& p : points) mesh.positions.push_back(Vec3d(p.x(), p.y(), p.z()).cast<float>());
@@ -91,6 +82,15 @@ TriangleMesh MeshOf(const std::vector<Point>& points, const std::vector<Facet>& 
         {static_cast<uint32_t>(a), static_cast<uint32_t>(b), static_cast<uint32_t>(c)});
   }
   return mesh;
+}
+
+// Each triangle begins with its smallest index, and they ascend: the order that CGAL leaves, and
+// which side of the surface it calls the front, depend on addresses in memory. So this comes after
+// OrientOutwards().
+void PutInFixedOrder(TriangleMesh& mesh) {
+  for (auto& t : mesh.triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(mesh.triangles.begin(), mesh.triangles.end());
 }
 
 }  // namespace
@@ -142,8 +142,9 @@ Reconstruction ReconstructSurface(const std::vector<Vec3f>& given,
                     "{:.3g} mm (--max-edge-mm)",
                     points.size(), result.max_edge_mm));
   }
-  result.mesh = MeshOf(points, InFixedOrder(std::move(facets)));
+  result.mesh = MeshOf(points, facets);
   OrientOutwards(result.mesh);
+  PutInFixedOrder(result.mesh);
   result.mesh = WithSmoothNormals(result.mesh);
   return result;
 }
