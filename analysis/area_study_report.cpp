@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "analysis/area_plots.h"
 #include "analysis/area_study.h"
 #include "analysis/area_tests.h"
-#include "analysis/plotly_figure.h"
 #include "analysis/report.h"
 
 namespace retrolux {
@@ -12,89 +12,8 @@ namespace {
 using nlohmann::json;
 using namespace plot_colour;
 
-constexpr double kUnitArea_mm2 = kAreaSphereRadius_mm * kAreaSphereRadius_mm;
-
 std::string Percent(double fraction) {
   return fmt::format("{:.3g} %", 100.0 * fraction);
-}
-
-json Axis(const std::string& title) {
-  return {{"title", {{"text", title}}}};
-}
-
-json LogAxis(const std::string& title) {
-  json axis = Axis(title);
-  axis["type"] = "log";
-  axis["exponentformat"] = "power";
-  return axis;
-}
-
-struct Curve {
-  std::string name;
-  std::vector<double> x, y;
-  std::string colour = "";
-  std::string mode = "lines+markers";
-  std::string dash = "solid";
-  std::string symbol = "circle";
-};
-
-json TraceOf(const Curve& curve) {
-  json trace = {{"type", "scatter"},
-                {"mode", curve.mode},
-                {"name", curve.name},
-                {"x", curve.x},
-                {"y", curve.y},
-                {"line", {{"dash", curve.dash}}},
-                {"marker", {{"symbol", curve.symbol}}}};
-  if (!curve.colour.empty()) {
-    trace["line"]["color"] = curve.colour;
-    trace["marker"]["color"] = curve.colour;
-  }
-  return trace;
-}
-
-PlotlyFigure FigureOf(const std::vector<Curve>& curves, json x_axis, json y_axis) {
-  PlotlyFigure figure;
-  for (const Curve& curve : curves) figure.traces.push_back(TraceOf(curve));
-  figure.layout = {{"xaxis", std::move(x_axis)}, {"yaxis", std::move(y_axis)}};
-  return figure;
-}
-
-using Rows = std::vector<const AreaRow*>;
-
-Curve AreasOver(const std::string& name, const Rows& rows, std::optional<double> AreaRow::*which) {
-  Curve curve{name, {}, {}};
-  for (const AreaRow* row : rows) {
-    if (!(row->*which)) continue;
-    curve.x.push_back(row->x);
-    curve.y.push_back(*(row->*which) / kUnitArea_mm2);
-  }
-  return curve;
-}
-
-Curve ErrorsOver(const std::string& name, const Rows& rows, bool by_index) {
-  Curve curve{name, {}, {}};
-  for (const AreaRow* row : rows) {
-    if (!row->RelError()) continue;
-    curve.x.push_back(by_index ? static_cast<double>(curve.x.size() + 1) : row->x);
-    curve.y.push_back(100.0 * *row->RelError());
-  }
-  return curve;
-}
-
-const char* ColourOf(const std::string& rule) {
-  if (rule == "ids") return kBlue;
-  return rule == "rays" ? kVermillion : kGreen;
-}
-
-const char* SymbolOf(const std::string& shape) {
-  if (shape == "cap") return "circle";
-  return shape == "half-hidden disc" ? "diamond" : "square";
-}
-
-const char* DashOf(const std::string& shape) {
-  if (shape == "cap") return "solid";
-  return shape == "half-hidden disc" ? "dot" : "dash";
 }
 
 class AreaReport {
@@ -162,21 +81,21 @@ class AreaReport {
 
   void Equivalent() {
     report_.Heading("Equivalent cameras, pairs and triplets");
-    std::vector<Curve> curves = {ErrorsOver("one camera", study_.Rows("single"), true)};
+    std::vector<PlotCurve> curves = {ErrorsOfGroup("one camera", study_.Rows("single"))};
     for (const char* group : {"40 deg", "80 deg", "120 deg", "160 deg"}) {
       const std::string angle(group, std::find(group, group + 3, ' '));
-      curves.push_back(ErrorsOver("pairs at " + angle + "°", study_.Rows("pair", group), true));
+      curves.push_back(ErrorsOfGroup("pairs at " + angle + "°", study_.Rows("pair", group)));
     }
     curves.push_back(
-        ErrorsOver("triplets in a plane", study_.Rows("triplet", "in a plane, 40 deg"), true));
+        ErrorsOfGroup("triplets in a plane", study_.Rows("triplet", "in a plane, 40 deg")));
     for (const char* group : {"rigs 2-1-2", "rigs 1-2-1", "rigs, two neighbours on one"}) {
       curves.push_back(
-          ErrorsOver(fmt::format("triplets, {}", group), study_.Rows("triplet", group), true));
+          ErrorsOfGroup(fmt::format("triplets, {}", group), study_.Rows("triplet", group)));
     }
     Draw(
         "Error of each camera, pair and triplet of a group that symmetry makes equal (the thesis's "
         "figures 4.16 to 4.19 show the deviation from their mean)",
-        FigureOf(curves, Axis("number in the group"), Axis("error (%)")));
+        FigureOf(curves, AxisTitle("number in the group"), AxisTitle("error (%)")));
     EquivalentTable();
     report_.Paragraph(fmt::format(
         "The single cameras' areas lie {} off the closed form: the mesh of {} flat triangles has "
@@ -208,7 +127,7 @@ class AreaReport {
         {"their cost", "triplet_cost", "rigs, two neighbours on one", ""}};
     std::vector<std::vector<std::string>> table;
     for (const Group& group : groups) {
-      const Rows rows = study_.Rows(group.test, group.group);
+      const AreaRows rows = study_.Rows(group.test, group.group);
       double mean = 0.0;
       for (const AreaRow* row : rows) mean += *row->rendered_mm2 / static_cast<double>(rows.size());
       const auto& far = rows.front()->far_mm2;
@@ -236,19 +155,11 @@ class AreaReport {
 
   void ConvergenceFigure(const std::string& axis, const std::string& title,
                          const std::string& caption) {
-    std::vector<Curve> drawn;
+    std::vector<PlotCurve> drawn;
     for (const AreaCurve& curve : curves_) {
-      if (curve.axis != axis) continue;
-      Curve trace{curve.shape + ", " + curve.rule, {}, {}, ColourOf(curve.rule)};
-      trace.dash = DashOf(curve.shape);
-      trace.symbol = SymbolOf(curve.shape);
-      for (const AreaCurve::Point& point : curve.points) {
-        trace.x.push_back(point.x);
-        trace.y.push_back(100.0 * point.rms);
-      }
-      drawn.push_back(std::move(trace));
+      if (curve.axis == axis) drawn.push_back(ErrorsOf(curve));
     }
-    Draw(caption, FigureOf(drawn, LogAxis(title), LogAxis("RMS error (%)")));
+    Draw(caption, FigureOf(drawn, LogAxisTitle(title), LogAxisTitle("RMS error (%)")));
   }
 
   std::string Falls(const char* shape, const char* rule, const char* axis) const {
@@ -305,22 +216,23 @@ class AreaReport {
   }
 
   void Far() {
+    constexpr double unit_area_mm2 = kAreaSphereRadius_mm * kAreaSphereRadius_mm;
     report_.Heading("The far limit");
-    const Rows rows = study_.Rows("far_pair");
-    Curve line{"2π − 2ψ", {0.0, 180.0}, {2.0 * kPi, 0.0}, kGrey, "lines", "dash"};
-    Curve measured = AreasOver("measured", rows, &AreaRow::rendered_mm2);
+    const AreaRows rows = study_.Rows("far_pair");
+    PlotCurve line{"2π − 2ψ", {0.0, 180.0}, {2.0 * kPi, 0.0}, kGrey, "lines", "dash"};
+    PlotCurve measured = AreasOver("measured", rows, &AreaRow::rendered_mm2);
     measured.mode = "markers";
     measured.colour = kBlue;
     Draw("What two cameras at 160 m see in common over their separation (thesis figure 4.21)",
-         FigureOf({line, measured}, Axis("ψ (degrees)"), Axis("area / r²")));
+         FigureOf({line, measured}, AxisTitle("ψ (degrees)"), AxisTitle("area / r²")));
     report_.Paragraph(fmt::format(
         "From 100 times as far away, with a lens as much longer, the areas follow the line "
         "**{:.4f} "
         "{:+.4f} ψ** (thesis: 6.3 and −2.0; at infinity 2π = 6.2832 and −2). At 1600 mm they would "
         "not: one camera sees {:.4f} r² there, and a pair at 80° {:.4f} r² instead of 3.4907.",
         study_.far.offset, study_.far.gradient,
-        *study_.Rows("single").front()->rendered_mm2 / kUnitArea_mm2,
-        *study_.Rows("pair", "80 deg").front()->rendered_mm2 / kUnitArea_mm2));
+        *study_.Rows("single").front()->rendered_mm2 / unit_area_mm2,
+        *study_.Rows("pair", "80 deg").front()->rendered_mm2 / unit_area_mm2));
   }
 
   static std::string Hidden(const BeamThresholds& thresholds) {
@@ -334,16 +246,17 @@ class AreaReport {
 
   void Nozzles() {
     report_.Heading("Behind the nozzles");
-    std::vector<Curve> curves;
+    std::vector<PlotCurve> curves;
     const char* colours[] = {kVermillion, kBlue, kBlack};
     const char* groups[] = {"camera 1", "camera 2", "both"};
     for (size_t i = 0; i < 3; ++i) {
-      Curve curve = AreasOver(groups[i], study_.Rows("beam", groups[i]), &AreaRow::rendered_mm2);
+      PlotCurve curve =
+          AreasOver(groups[i], study_.Rows("beam", groups[i]), &AreaRow::rendered_mm2);
       curve.colour = colours[i];
       curve.mode = "lines";
       curves.push_back(curve);
     }
-    Curve whole =
+    PlotCurve whole =
         AreasOver("both, without nozzles", study_.Rows("beam", "both"), &AreaRow::analytic_mm2);
     whole.colour = kGrey;
     whole.mode = "lines";
@@ -352,7 +265,7 @@ class AreaReport {
     Draw(
         "What cameras 1 and 2 see of the sphere over φb, all cameras in the beam's plane (thesis "
         "figure 4.22)",
-        FigureOf(curves, Axis("φb (degrees)"), Axis("area / r²")));
+        FigureOf(curves, AxisTitle("φb (degrees)"), AxisTitle("area / r²")));
     report_.Paragraph(fmt::format(
         "Camera 1 is hidden {}; camera 2 {}. Thesis: one camera fully below 25°, the other partly "
         "below 20°, none over 60°. Camera 2 stands at 45° + 0.75 φb, which is {:.1f}° where φb is "
@@ -369,32 +282,32 @@ class AreaReport {
 
   void Optimum() {
     report_.Heading("The best angle of a pair");
-    const Rows rows = study_.Rows("optimal_angle");
-    Curve measured = AreasOver("measured", rows, &AreaRow::rendered_mm2);
+    const AreaRows rows = study_.Rows("optimal_angle");
+    PlotCurve measured = AreasOver("measured", rows, &AreaRow::rendered_mm2);
     measured.mode = "markers";
     measured.colour = kBlue;
-    Curve analytic = AreasOver("closed form", rows, &AreaRow::analytic_mm2);
+    PlotCurve analytic = AreasOver("closed form", rows, &AreaRow::analytic_mm2);
     analytic.mode = "lines";
     analytic.colour = kBlack;
-    Curve far = AreasOver("at infinity", rows, &AreaRow::far_mm2);
+    PlotCurve far = AreasOver("at infinity", rows, &AreaRow::far_mm2);
     far.mode = "lines";
     far.dash = "dash";
     far.colour = kGrey;
     Draw(fmt::format("Cost of a pair over its separation (thesis figure 4.23), gamma_max {} mm",
                      study_.gamma_max_mm),
-         FigureOf({far, analytic, measured}, Axis("ψ (degrees)"), Axis("cost / r²")));
-    Curve unit{"the thesis's sphere, r = 1 mm", study_.gammas_mm, study_.optimum_unit_deg,
-               kVermillion, "lines"};
-    Curve ours{"r = 100 mm", study_.gammas_mm, study_.optimum_deg, kBlue, "lines"};
-    Curve mark{"calibrated",
-               {study_.gamma_max_mm, study_.gamma_max_mm},
-               {study_.calibrated_unit_deg, study_.calibrated_deg},
-               kBlack,
-               "markers",
-               "solid",
-               "star"};
+         FigureOf({far, analytic, measured}, AxisTitle("ψ (degrees)"), AxisTitle("cost / r²")));
+    PlotCurve unit{"the thesis's sphere, r = 1 mm", study_.gammas_mm, study_.optimum_unit_deg,
+                   kVermillion, "lines"};
+    PlotCurve ours{"r = 100 mm", study_.gammas_mm, study_.optimum_deg, kBlue, "lines"};
+    PlotCurve mark{"calibrated",
+                   {study_.gamma_max_mm, study_.gamma_max_mm},
+                   {study_.calibrated_unit_deg, study_.calibrated_deg},
+                   kBlack,
+                   "markers",
+                   "solid",
+                   "star"};
     Draw("The best separation over the greatest error allowed, gamma_max",
-         FigureOf({unit, ours, mark}, Axis("gamma_max (mm)"), Axis("best ψ (degrees)")));
+         FigureOf({unit, ours, mark}, AxisTitle("gamma_max (mm)"), AxisTitle("best ψ (degrees)")));
     report_.Paragraph(fmt::format(
         "The thesis does not print gamma_max. With **{} mm** its sphere is seen best from "
         "**{:.2f}° "

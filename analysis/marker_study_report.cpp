@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/marker_coverage.h"
+#include "analysis/plotly_figure.h"
 #include "analysis/report.h"
 #include "core/atomic_file.h"
 #include "core/image_file.h"
@@ -220,7 +221,7 @@ class StudyReport {
         "six cameras; front, "
         "back: at least two of three; both: front and back.",
         traces,
-        {{"xaxis", {{"title", {{"text", "centre of the oval along z / mm"}}}}},
+        {{"xaxis", AxisTitle("centre of the oval along z / mm")},
          {"yaxis",
           {{"title", {{"text", "usable area / % of the face half"}}}, {"rangemode", "tozero"}}}});
   }
@@ -316,7 +317,7 @@ class StudyReport {
                         {"y", y}});
     }
     report_.Plot("Outcomes by camera, all markers and poses", traces,
-                 {{"barmode", "stack"}, {"yaxis", {{"title", {{"text", "pictures"}}}}}});
+                 {{"barmode", "stack"}, {"yaxis", AxisTitle("pictures")}});
   }
 
   void Pictures() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace retrolux {
 
@@ -10,6 +11,11 @@ struct PlotlyFigure {
   nlohmann::json layout = nlohmann::json::object();
   int height_px = 420;
 };
+
+// An axis with its title.
+inline nlohmann::json AxisTitle(const std::string& text) {
+  return {{"title", {{"text", text}}}};
+}
 
 // Of the page's palette (Okabe and Ito), for traces that must keep their colour across figures.
 namespace plot_colour {

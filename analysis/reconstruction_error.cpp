@@ -23,22 +23,13 @@ double LeastError(const std::vector<Point>& points) {
 }
 
 void CheckPoints(const std::vector<Point>& points) {
-  if (points.size() < 3) {
-    throw InputError(fmt::format("reconstruction error: {} known points; expected three or more",
-                                 points.size()));
-  }
+  RETROLUX_CHECK(points.size() >= 3, "{} known points", points.size());
   double last_deg = 0.0;
   for (const Point& point : points) {
-    if (!(point.angle_deg > last_deg && point.angle_deg <= 90.0)) {
-      throw InputError(fmt::format(
-          "reconstruction error: angle {} deg after {} deg; expected ascending angles in (0, 90]",
-          point.angle_deg, last_deg));
-    }
-    if (!(point.error_mm > 0.0 && std::isfinite(point.error_mm))) {
-      throw InputError(
-          fmt::format("reconstruction error: {} mm at {} deg; expected a positive error",
-                      point.error_mm, point.angle_deg));
-    }
+    RETROLUX_CHECK(point.angle_deg > last_deg && point.angle_deg <= 90.0, "{} deg after {} deg",
+                   point.angle_deg, last_deg);
+    RETROLUX_CHECK(point.error_mm > 0.0 && std::isfinite(point.error_mm), "{} mm at {} deg",
+                   point.error_mm, point.angle_deg);
     last_deg = point.angle_deg;
   }
 }
@@ -94,10 +85,8 @@ double GoldenSectionMaximum(const F& f, double begin, double end) {
 ReconstructionError::ReconstructionError(const std::vector<Point>& points, double gamma_max_mm)
     : gamma_max_mm_(gamma_max_mm) {
   CheckPoints(points);
-  if (!(gamma_max_mm > LeastError(points))) {
-    throw InputError(fmt::format("gamma_max {} mm; expected more than the least error, {} mm",
-                                 gamma_max_mm, LeastError(points)));
-  }
+  RETROLUX_CHECK(gamma_max_mm > LeastError(points), "{} mm; least error {} mm", gamma_max_mm,
+                 LeastError(points));
   for (const Point& point : points) {
     angles_.push_back(RadFromDeg(point.angle_deg));
     errors_.push_back(point.error_mm);

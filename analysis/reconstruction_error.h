@@ -21,9 +21,9 @@ class ReconstructionError {
     double error_mm;
   };
 
-  // InputError unless there are three points or more, by ascending angles in (0, 90] degrees,
-  // errors positive, and gamma_max_mm (the error at which the weight becomes zero) above the least
-  // of them.
+  // Three points or more, by ascending angles in (0, 90] degrees, errors positive, and gamma_max_mm
+  // (the error at which the weight becomes zero) above the least of them. LoadScenario() sees to
+  // it; here anything else is our own fault.
   ReconstructionError(const std::vector<Point>& points, double gamma_max_mm);
 
   // Infinite at psi = 0 and pi.
@@ -46,8 +46,7 @@ class ReconstructionError {
 double SphereOptimalAngle(const ReconstructionError& error, double cap_half_angle);
 
 // The gamma_max with which SphereOptimalAngle is `optimal_angle`, by bisection: the more error is
-// allowed, the smaller the optimal angle. InputError if no gamma_max gives that angle, or the
-// points are bad (see above).
+// allowed, the smaller the optimal angle. InputError if no gamma_max gives that angle.
 double CalibrateGammaMax(const std::vector<ReconstructionError::Point>& points,
                          double optimal_angle, double cap_half_angle);
 

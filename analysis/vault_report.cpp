@@ -189,7 +189,7 @@ class VaultReport {
         "Table 4.9 of the thesis: as printed, the same placement with our program, and "
         "our optimum",
         SolutionColumns(), SolutionRows(study_, printed));
-    report_.Paragraph(kSolutionNote);
+    report_.Paragraph(kSolutionNote + SolutionRemarks(study_));
   }
 
   std::vector<std::string> PlaceRow(const std::string& name, const Placement& p,

@@ -55,9 +55,11 @@ void AddTable(const Rooms& rooms, Report& report) {
   report.Heading("All solutions");
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> printed;
+  std::string note = kSolutionNote;
   for (const auto& [beams, studies] : rooms) {
     rows.push_back(Separator(NameOfBeams(beams)));
     for (const VaultStudy* study : studies) {
+      if (!study->options.placement) note += SolutionRemarks(*study);
       for (auto& row : SolutionRows(*study, printed)) rows.push_back(std::move(row));
     }
   }
@@ -65,7 +67,7 @@ void AddTable(const Rooms& rooms, Report& report) {
       "Table 4.9 of the thesis: each solution as printed, the same placement with our "
       "program, and the optimum of ours in that room",
       SolutionColumns(), rows);
-  report.Paragraph(kSolutionNote);
+  report.Paragraph(note);
 }
 
 void AddBars(const Rooms& rooms, Report& report) {
@@ -93,7 +95,7 @@ void AddBars(const Rooms& rooms, Report& report) {
        bars("our optimum", ours, plot_colour::kBlue)},
       {{"barmode", "group"},
        {"xaxis", {{"type", "category"}, {"title", {{"text", "simulation"}}}}},
-       {"yaxis", {{"title", {{"text", "cost (dm²)"}}}}}},
+       {"yaxis", AxisTitle("cost (dm²)")}},
       380);
 }
 

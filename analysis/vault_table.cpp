@@ -15,6 +15,15 @@ const char* const kSolutionNote =
     "other angle is the least true one between two cameras of the combination that decides; our "
     "reconstruction error is the one at it.";
 
+std::string SolutionRemarks(const VaultStudy& study) {
+  std::string remarks;
+  for (const ThesisSolution& printed : study.scenario.thesis) {
+    if (!printed.remark.empty())
+      remarks += fmt::format(" Solution {}: {}.", printed.name, printed.remark);
+  }
+  return remarks;
+}
+
 std::vector<std::string> SolutionColumns() {
   return {"solution",   "cost", "cm²", "%",  "angle 4.12", "angle",
           "error / mm", "φb",   "θ₁",  "θ₂", "cameras"};

@@ -23,4 +23,7 @@ std::vector<std::vector<std::string>> SolutionRows(const VaultStudy& study,
 // Why the two can't be compared column by column.
 extern const char* const kSolutionNote;
 
+// What the scenario remarks on the printed rows, as sentences; "" if nothing.
+std::string SolutionRemarks(const VaultStudy& study);
+
 }  // namespace retrolux

@@ -104,6 +104,16 @@ std::string Text(const fs::path& out, const MeshFindings& f) {
   return text;
 }
 
+void WriteAndReport(const TriangleMesh& mesh, const char* source, const MaskOptions& options,
+                    const GlobalOptions& global) {
+  WriteMesh(mesh, options.out);
+  const MeshFindings findings = CheckMesh(mesh);
+  nlohmann::json summary = Summary(findings);
+  summary[source] = options.input;
+  summary["out"] = options.out.string();
+  PrintResult(global, summary, Text(options.out, findings));
+}
+
 int RunMake(const MaskOptions& options, const GlobalOptions& global) {
   FaceShape face;
   if (options.relief && options.input != "face") {
@@ -113,12 +123,7 @@ int RunMake(const MaskOptions& options, const GlobalOptions& global) {
   face.relief = options.relief.value_or(face.relief);
   const TriangleMesh mesh = options.relief ? FaceMask(face) : MakeMask(options.input);
   CheckOut(options.out, {".glb"});
-  WriteMesh(mesh, options.out);
-  const MeshFindings findings = CheckMesh(mesh);
-  nlohmann::json summary = Summary(findings);
-  summary["mask"] = options.input;
-  summary["out"] = options.out.string();
-  PrintResult(global, summary, Text(options.out, findings));
+  WriteAndReport(mesh, "mask", options, global);
   return kExitGood;
 }
 
@@ -145,12 +150,7 @@ int RunImport(const MaskOptions& options, const GlobalOptions& global) {
     for (Vec3f& normal : mesh.normals) normal = -normal;
   }
   if (options.smooth) mesh = WithSmoothNormals(mesh);
-  WriteMesh(mesh, options.out);
-  const MeshFindings findings = CheckMesh(mesh);
-  nlohmann::json summary = Summary(findings);
-  summary["file"] = options.input;
-  summary["out"] = options.out.string();
-  PrintResult(global, summary, Text(options.out, findings));
+  WriteAndReport(mesh, "file", options, global);
   return kExitGood;
 }
 

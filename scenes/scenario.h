@@ -117,6 +117,7 @@ struct ThesisSolution {
   std::string name;
   double phi_b_deg = 0.0, theta1_deg = 0.0, theta2_deg = 0.0;
   double cost = 0.0, area_pct = 0.0, area_cm2 = 0.0, angle_deg = 0.0, error_mm = 0.0;
+  std::string remark;  // what a reader must know of the printed row; may be empty
 };
 
 struct Scenario {

@@ -185,11 +185,32 @@ SearchSpec ReadSearch(JsonReader json) {
 
 std::vector<ErrorPoint> ReadErrorPoints(const JsonReader& json) {
   std::vector<ErrorPoint> points;
+  double last_deg = 0.0;
   for (size_t i = 0; i < json.Size(); ++i) {
-    const std::vector<double> pair = json.Child(i).Numbers(2);
+    const JsonReader point = json.Child(i);
+    const std::vector<double> pair = point.Numbers(2);
+    if (!(pair[0] > last_deg && pair[0] <= 90.0)) {
+      point.Fail(fmt::format("{:g} degrees after {:g}", pair[0], last_deg),
+                 "ascending angles above 0, up to 90");
+    }
+    if (!(pair[1] > 0.0)) point.Fail(fmt::format("an error of {:g} mm", pair[1]), "a positive one");
     points.push_back({pair[0], pair[1]});
+    last_deg = pair[0];
   }
+  if (points.size() < 3) json.Fail(fmt::format("{} known points", points.size()), "three or more");
   return points;
+}
+
+// The error at which a pair of cameras is worth nothing.
+double ReadGammaMax(JsonReader& json, const std::vector<ErrorPoint>& points) {
+  double least_mm = points.front().error_mm;
+  for (const ErrorPoint& point : points) least_mm = std::min(least_mm, point.error_mm);
+  const double gamma_max_mm = json.Number("gamma_max_mm", 1e-6, 1e6);
+  if (gamma_max_mm <= least_mm) {
+    json.Fail(fmt::format("gamma_max_mm {:g}", gamma_max_mm),
+              fmt::format("more than the least known error, {:g} mm", least_mm));
+  }
+  return gamma_max_mm;
 }
 
 ThesisSolution ReadThesisSolution(JsonReader json) {
@@ -203,6 +224,7 @@ ThesisSolution ReadThesisSolution(JsonReader json) {
   row.area_cm2 = json.Number("area_cm2", 0.0, 1e6);
   row.angle_deg = json.Number("angle_deg", 0.0, 180.0);
   row.error_mm = json.Number("error_mm", 0.0, 1e3);
+  if (json.Has("remark")) row.remark = json.String("remark");
   json.Finish();
   return row;
 }
@@ -265,7 +287,7 @@ Scenario FromDocument(const nlohmann::json& document, const fs::path& file) {
   scenario.combinations = ReadCombinations(json.Child("combinations"), scenario.cameras.count);
   JsonReader error = json.Child("reconstruction_error");
   scenario.error_points = ReadErrorPoints(error.Child("points"));
-  scenario.gamma_max_mm = error.Number("gamma_max_mm", 1e-6, 1e6);
+  scenario.gamma_max_mm = ReadGammaMax(error, scenario.error_points);
   error.Finish();
   scenario.search = ReadSearch(json.Child("search"));
   ForEach(json, "variations", [&](JsonReader variation) {

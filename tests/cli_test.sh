@@ -476,7 +476,10 @@ vault_bad "unknown key in a scenario" "/search: found the unknown key 'phi_d'; e
 vault_bad "a base that is not there" '/base: no such scenario; expected.*1a, 1b, 2' '{base: "nobase"}'
 vault_bad "a scenario that is its own base" '/base: more than 8 bases; expected' '{base: "wrong.json"}'
 vault_bad "a nozzle whose radii fall" '\(slim\): /nozzle: found radii 1000.*expected' '{variations: [{name: "slim", change: {nozzle: {tip_radius_mm: 1000}}}]}'
-vault_bad "two known errors" 'reconstruction error: 2 known points; expected three' '{reconstruction_error: {points: [[30, 4], [90, 2]]}}'
+vault_bad "two known errors" '/reconstruction_error/points: found 2 known points; expected three or more' '{reconstruction_error: {points: [[30, 4], [90, 2]]}}'
+vault_bad "known errors out of order" '/reconstruction_error/points/1: found 30 degrees after 90; expected ascending' '{reconstruction_error: {points: [[90, 2], [30, 4], [60, 3]]}}'
+vault_bad "a known error of 0" '/reconstruction_error/points/0: found an error of 0 mm; expected a positive one' '{reconstruction_error: {points: [[30, 0], [60, 3], [90, 2]]}}'
+vault_bad "gamma_max below the least error" '/reconstruction_error: found gamma_max_mm 1; expected more than the least known error, 1.5238 mm' '{reconstruction_error: {gamma_max_mm: 1}}'
 vault_bad "nothing that can be built" '/search: no placement that can be built.*below 5000 mm; expected' '{rigs: {min_height_mm: 5000}}'
 refuse "unknown simulation" '9z: no such scenario.*expected.*1a, 1b, 2, 3a, 3b, 4, 5' bad study vault --simulation 9z --quick --out bad
 refuse "no simulation" 'no simulation; expected --simulation' bad study vault --quick --out bad

@@ -101,16 +101,16 @@ TEST(ReconstructionError, WeightIsOneWithoutErrorAndNeverNegative) {
 TEST(ReconstructionError, RefusesWhatIsNoCurve) {
   const Points good = ThesisPoints();
   EXPECT_NO_THROW(ReconstructionError(good, 1.53));
-  EXPECT_THROW(ReconstructionError({{30, 3}, {90, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{30, 3}, {30, 2}, {90, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{40, 3}, {30, 2}, {90, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{0, 3}, {30, 2}, {90, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{20, 3}, {30, 2}, {90.1, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{20, 3}, {30, std::nan("")}, {90, 1}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError({{20, 3}, {30, 2}, {90, 0}}, 6.0), InputError);
-  EXPECT_THROW(ReconstructionError(good, 1.5238), InputError);
-  EXPECT_THROW(ReconstructionError(good, std::nan("")), InputError);
-  EXPECT_THROW(CalibrateGammaMax({{30, 3}, {90, 1}}, 1.0, 1.5), InputError);
+  EXPECT_THROW(ReconstructionError({{30, 3}, {90, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{30, 3}, {30, 2}, {90, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{40, 3}, {30, 2}, {90, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{0, 3}, {30, 2}, {90, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{20, 3}, {30, 2}, {90.1, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{20, 3}, {30, std::nan("")}, {90, 1}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError({{20, 3}, {30, 2}, {90, 0}}, 6.0), std::logic_error);
+  EXPECT_THROW(ReconstructionError(good, 1.5238), std::logic_error);
+  EXPECT_THROW(ReconstructionError(good, std::nan("")), std::logic_error);
+  EXPECT_THROW(CalibrateGammaMax({{30, 3}, {90, 1}}, 1.0, 1.5), std::logic_error);
 }
 
 TEST(SphereOptimalAngle, IsTheBestOfAFineSearch) {

@@ -95,7 +95,7 @@ TEST(RigLayout, GivesTheAnglesOfTable49) {
 }
 
 // The ninth row, 36.70 degrees, is the nine-camera formula's 33.75 degrees of azimuth at phi_b 45;
-// eight cameras every 45 degrees, as the thesis's text and figure say, stand 44.68 apart.
+// eight cameras every 45 degrees, as the thesis's text and figure say, stand 44.30 apart.
 TEST(RigLayout, SolutionFivesAngleBelongsToNineCameras) {
   const Placement placement = {45.0, 70.52, 47.21};
   EXPECT_NEAR(DegFromRad(NominalSeparationRad(LoadScenario("3a"), placement, 0, 1)), 36.70, 0.05);
