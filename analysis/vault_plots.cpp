@@ -12,30 +12,50 @@ namespace retrolux {
 using nlohmann::json;
 using namespace plot_colour;
 
-std::optional<PlotlyFigure> CostOverPhiB(const VaultStudy& study) {
-  std::map<double, const PlacementResult*> best;
+namespace {
+
+using BestByPhiB = std::map<double, const PlacementResult*>;
+
+BestByPhiB BestOfEachPhiB(const VaultStudy& study, int phase) {
+  BestByPhiB best;
   for (const PlacementResult& result : study.results) {
+    if (result.phase != phase) continue;
     const PlacementResult*& at = best[RoundedAngle(result.Where().phi_b_deg)];
     if (!at || at->Cost() < result.Cost()) at = &result;
   }
-  if (best.size() < 2) return std::nullopt;
-  json x = json::array(), y = json::array(), text = json::array(), symbols = json::array();
+  return best;
+}
+
+json TraceOf(const BestByPhiB& best, const char* name, const char* mode, const char* symbol) {
+  json x = json::array(), y = json::array(), text = json::array();
   for (const auto& [phi_b, result] : best) {
     x.push_back(phi_b);
     y.push_back(RoundedCost(result->Cost()));
     text.push_back(HoverOf(*result));
-    symbols.push_back(result->phase == 1 ? "circle" : "circle-open");
   }
+  return {{"type", "scatter"},
+          {"mode", mode},
+          {"name", name},
+          {"x", x},
+          {"y", y},
+          {"text", text},
+          {"hoverinfo", "text"},
+          {"marker", {{"symbol", symbol}, {"color", kBlue}}},
+          {"line", {{"color", kBlue}}}};
+}
+
+}  // namespace
+
+std::optional<PlotlyFigure> CostOverPhiB(const VaultStudy& study) {
+  const BestByPhiB coarse = BestOfEachPhiB(study, 1), fine = BestOfEachPhiB(study, 2);
+  if (coarse.size() + fine.size() < 2) return std::nullopt;
   PlotlyFigure figure;
-  figure.traces.push_back({{"type", "scatter"},
-                           {"mode", "lines+markers"},
-                           {"name", "best of all heights"},
-                           {"x", x},
-                           {"y", y},
-                           {"text", text},
-                           {"hoverinfo", "text"},
-                           {"marker", {{"symbol", symbols}, {"color", kBlue}}},
-                           {"line", {{"color", kBlue}}}});
+  figure.traces.push_back(TraceOf(coarse, "phase 1, all heights", "lines+markers", "circle"));
+  // No line: between its patches phase 2 has not looked at all heights.
+  if (!fine.empty()) {
+    figure.traces.push_back(
+        TraceOf(fine, "phase 2, around the best of phase 1", "markers", "circle-open"));
+  }
   for (const PlacementMark& mark : MarksOf(study)) {
     figure.traces.push_back(
         TraceOf(mark, mark.result->Where().phi_b_deg, RoundedCost(mark.result->Cost())));

@@ -122,10 +122,7 @@ class VaultReport {
         "The cost is that of a placement's worst orientation, seen by the combination of cameras "
         "that is best for it: the area that two or more of them see, weighted by how well they "
         "reconstruct a point, in dm² (10⁴ mm², the thesis's unit). More is better.");
-    Draw(
-        "Best cost of each φb over all heights of the rigs (thesis figures 4.25 to 4.31). Filled: "
-        "grid of phase 1; open: phase 2, around the best of phase 1 only.",
-        phi_b);
+    Draw("Best cost of each φb over all heights of the rigs (thesis figures 4.25 to 4.31)", phi_b);
     Draw(study_.scenario.rigs.same_height
              ? "Cost over the height of the cameras for each φb of phase 1"
              : "Cost over the heights of both rigs for each φb of phase 1 (the thesis's height "
