@@ -70,15 +70,17 @@ std::vector<Check> CheckFilter() {
   // A line at 904 nm lies near the half-maximum point at 905 nm, so that the shift costs it much.
   // What a pixel receives there, against T(904 nm, theta) cos^4 of the field angle written out.
   CameraSpec camera = OvalScene().cameras[0];
-  const CameraResponse response(camera, {LedSpectrum(904.0, 0.5)}, 1e-3);
+  const CameraResponse response(camera, {LedSpectrum({904.0, 0.5})}, 1e-3);
   for (const double deg : {4.57, 6.09}) {
     const auto level = [&](double theta_deg) {
       constexpr int kSamples = 4096;
       const auto cosine = static_cast<float>(std::cos(RadFromDeg(theta_deg)));
       double sum = 0.0;
       for (int s = 0; s < kSamples; ++s) {
-        const Spectral nm = response.SampleWavelengths((static_cast<float>(s) + 0.5f) / kSamples);
-        sum += static_cast<double>(response.WeightsAt(nm, cosine).electrons[0]);
+        const Spectral nm =
+            response.SampleWavelengths((static_cast<float>(s) + 0.5f) / kSamples, cosine);
+        sum += static_cast<double>(
+            response.WeightsAt(nm, cosine, std::pow(cosine, 4.0f)).electrons[0]);
       }
       return sum / kSamples;
     };

@@ -36,7 +36,8 @@ FloatPlane RenderBackground(const Scene& scene, const RayScene& rays, const Ligh
 }  // namespace
 
 std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface,
-                                               const CameraModel& camera) {
+                                               const CameraModel& camera, double blur_px) {
+  const double margin_px = kMargin_px + blur_px;
   Polygon points;
   for (const MarkerSurface::Point& point : surface.points) {
     if (const auto px = camera.Project(point.position)) points.push_back(*px);
@@ -51,16 +52,16 @@ std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface,
     lo = lo.cwiseMin(corner);
     hi = hi.cwiseMax(corner);
   }
-  const auto first = [](double v) {
-    return std::max(0, static_cast<int>(std::ceil(v - kMargin_px)));
+  const auto first = [&](double v) {
+    return std::max(0, static_cast<int>(std::ceil(v - margin_px)));
   };
-  const auto last = [](double v, int size) {
-    return std::min(size - 1, static_cast<int>(std::floor(v + kMargin_px)));
+  const auto last = [&](double v, int size) {
+    return std::min(size - 1, static_cast<int>(std::floor(v + margin_px)));
   };
   std::vector<Eigen::Vector2i> pixels;
   for (int y = first(lo.y()); y <= last(hi.y(), camera.height); ++y) {
     for (int x = first(lo.x()); x <= last(hi.x(), camera.width); ++x) {
-      if (DistanceToHull(hull, Vec2d(x, y)) <= kMargin_px) pixels.emplace_back(x, y);
+      if (DistanceToHull(hull, Vec2d(x, y)) <= margin_px) pixels.emplace_back(x, y);
     }
   }
   return pixels;
@@ -72,21 +73,41 @@ ComposedCamera::ComposedCamera(const Scene& scene, const RayScene& rays, const C
       rays_(rays),
       lights_(scene, rays, rings, camera.model.name),
       response_(camera, lights_.Spectra(), retrolux::ExposureSeconds(scene, camera)),
+      lens_(camera),
+      scatter_(camera, response_.MeanWavelength_nm()),
+      spread_px_(camera.lens.diffraction
+                     ? AiryDisc(camera, response_.MeanWavelength_nm()).CoreRadius_px()
+                     : 0.0),
       options_(options),
-      background_(RenderBackground(scene, rays, lights_, response_, options, progress)) {}
+      traced_background_(RenderBackground(scene, rays, lights_, response_, options, progress)),
+      background_(traced_background_) {
+  scatter_.Apply(background_);
+}
+
+double ComposedCamera::Blur_px(const MarkerSurface& surface) const {
+  const CameraModel& model = response_.Camera().model;
+  double widest = 0.0;
+  for (const MarkerSurface::Point& point : surface.points) {
+    const double depth_mm = (model.camera_from_world * point.position).z();
+    if (depth_mm > 0.0) widest = std::max(widest, lens_.BlurRadius_px(depth_mm));
+  }
+  return widest + spread_px_;
+}
 
 FloatPlane ComposedCamera::Signal(const PlacedMarker& marker, const MarkerSurface& surface,
                                   int64_t* retraced) const {
   const std::vector<PlacedMarker> markers = {marker};
   const PathTracer tracer(scene_, rays_, lights_, response_, markers, options_);
-  FloatPlane signal = background_;
-  const std::vector<Eigen::Vector2i> pixels = PixelsThatCanShow(surface, response_.Camera().model);
+  FloatPlane signal = traced_background_;
+  const std::vector<Eigen::Vector2i> pixels =
+      PixelsThatCanShow(surface, response_.Camera().model, Blur_px(surface));
   for (const Eigen::Vector2i& px : pixels) {
     const PixelEstimate estimate = tracer.EstimatePixel(px.x(), px.y());
     float sum = 0.0f;
     for (int group = 0; group < lights_.GroupCount(); ++group) sum += estimate.electrons[group];
     signal(px.x(), px.y()) = sum;
   }
+  scatter_.Apply(signal);
   if (retraced) *retraced += static_cast<int64_t>(pixels.size());
   return signal;
 }

@@ -7,7 +7,7 @@
 // docs/physics.md).
 #pragma once
 
-#include "renderer/film.h"
+#include "renderer/lens_scatter.h"
 #include "renderer/marker_truth.h"
 
 namespace retrolux {
@@ -29,17 +29,24 @@ class ComposedCamera {
   double ExposureSeconds() const { return response_.ExposureSeconds(); }
 
  private:
+  // How far the lens spreads what lies at the marker's depth.
+  double Blur_px(const MarkerSurface& surface) const;
+
   const Scene& scene_;
   const RayScene& rays_;
   Lights lights_;
   CameraResponse response_;
+  LensRays lens_;
+  LensScatter scatter_;
+  double spread_px_;  // of the lens's diffraction, beyond which only scatter_ goes
   TraceOptions options_;
+  FloatPlane traced_background_;  // before the lens's scatter
   FloatPlane background_;
 };
 
 // Pixels whose box can show the marker: those within a margin of the convex hull of its projected
-// surface.
+// surface. `blur_px`: how far from where it falls the lens spreads a point.
 std::vector<Eigen::Vector2i> PixelsThatCanShow(const MarkerSurface& surface,
-                                               const CameraModel& camera);
+                                               const CameraModel& camera, double blur_px = 0.0);
 
 }  // namespace retrolux

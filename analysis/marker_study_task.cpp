@@ -95,7 +95,8 @@ class PosedCamera {
         scene_(room.AtPose(study.poses[static_cast<size_t>(pose)])),
         rays_(scene_),
         camera_(scene_, rays_, scene_.cameras[static_cast<size_t>(camera)], RingChoice::kAll,
-                Tracing(), NoProgress()) {}
+                Tracing(), NoProgress()),
+        sensor_(camera_.Camera()) {}
 
   // The picture of a marker at a position: made, decided and, if the options say so, kept.
   PictureResult Picture(int marker, const GridPosition& position) {
@@ -166,8 +167,8 @@ class PosedCamera {
   }
 
   DigitalImage Expose(const FloatPlane& signal, const PictureResult& result) const {
-    return ExposeSensor(signal, camera_.Camera().sensor, camera_.ExposureSeconds(),
-                        NoiseKey(study_.options.noise_seed, PictureName(study_, result)));
+    return sensor_.Expose(signal, camera_.ExposureSeconds(),
+                          NoiseKey(study_.options.noise_seed, PictureName(study_, result)));
   }
 
   void Write(const DigitalImage& picture, const PictureResult& result) const {
@@ -186,6 +187,7 @@ class PosedCamera {
   Scene scene_;
   RayScene rays_;
   ComposedCamera camera_;
+  Sensor sensor_;
   std::mutex mutex_;
   MarkerStudy::Times times_;
   int64_t retraced_pixels_ = 0;

@@ -43,7 +43,7 @@ MeasuringBench::Radiance MeasuringBench::Measure(int samples, uint64_t seed) con
   double sum = 0.0, sum2 = 0.0;
   for (int s = 0; s < samples; ++s) {
     PixelSampler sampler(Mix64(seed), static_cast<uint32_t>(s));
-    const Spectral nm = response.SampleWavelengths(sampler.Next1D());
+    const Spectral nm = response.SampleWavelengths(sampler.Next1D(), 1.0f);
     const auto value =
         static_cast<double>(tracer.TracePath(origin, direction, nm, sampler).radiance.sum());
     sum += value;

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.h"
 #include "renderer/exposure.h"
+#include "renderer/lens_scatter.h"
 #include "renderer/sensor.h"
 #include "scenes/scene_json.h"
 
@@ -60,14 +61,15 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
       const CameraResponse response(camera, lights.Spectra(), exposures_s[c]);
       const PathTracer tracer(scene, rays, lights, response, markers, options.trace);
       film.emplace(RenderFilm(tracer, camera.model, lights.GroupNames(), progress));
+      LensScatter(camera, response.MeanWavelength_nm()).Apply(*film);
     }
     WriteExr(folder / (name + ".exr"), ShotExr(camera, ids, film ? &*film : nullptr, info,
                                                rays.BodyNames(), markers, scene.markers));
     files.push_back(name + ".exr");
     if (film) {
       WritePng(folder / (name + ".png"),
-               ExposeSensor(film->electrons, camera.sensor, exposures_s[c],
-                            NoiseKey(options.noise_seed, name)));
+               Sensor(camera).Expose(film->electrons, exposures_s[c],
+                                     NoiseKey(options.noise_seed, name)));
       files.push_back(name + ".png");
     }
     CameraTruth truth{name, {}};

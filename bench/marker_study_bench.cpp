@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "analysis/marker_study.h"
+#include "renderer/bare_embree.h"
 #include "renderer/exposure.h"
 #include "renderer/id_pass.h"
 #include "renderer/sensor.h"
@@ -56,17 +57,14 @@ void Rate(benchmark::State& state, const char* name, double per_iteration) {
 // The limit of the id pass and of every primary ray: packets, nothing done with the hits.
 void BareEmbreePackets(benchmark::State& state) {
   const Bench& bench = Shared();
+  const BareEmbree bare(bench.scene);
   const Vec3f origin = bench.camera.model.Centre().cast<float>();
   std::vector<Vec3f> directions;
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x)
       directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
   }
-  std::vector<RayScene::PacketHit> hits(directions.size());
-  for (auto _ : state) {
-    bench.rays.IntersectPacket(origin, directions, hits);
-    benchmark::DoNotOptimize(hits.data());
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(bare.HitsInPackets(origin, directions));
   Rate(state, "rays", kPixels);
 }
 BENCHMARK(BareEmbreePackets)->Unit(benchmark::kMillisecond);
@@ -74,16 +72,14 @@ BENCHMARK(BareEmbreePackets)->Unit(benchmark::kMillisecond);
 // The limit of path tracing: one ray at a time.
 void BareEmbreeSingleRays(benchmark::State& state) {
   const Bench& bench = Shared();
+  const BareEmbree bare(bench.scene);
   const Vec3f origin = bench.camera.model.Centre().cast<float>();
   std::vector<Vec3f> directions;
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x)
       directions.push_back(bench.camera.model.RayThrough(Vec2d(x, y)).direction.cast<float>());
   }
-  for (auto _ : state) {
-    for (const Vec3f& direction : directions)
-      benchmark::DoNotOptimize(bench.rays.Intersect(origin, direction));
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(bare.Hits(origin, directions));
   Rate(state, "rays", kPixels);
 }
 BENCHMARK(BareEmbreeSingleRays)->Unit(benchmark::kMillisecond);
@@ -138,10 +134,10 @@ BENCHMARK(PictureTrace)->Unit(benchmark::kMillisecond);
 
 void PictureSensor(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
+  const Sensor sensor(camera.Camera());
   uint64_t key = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        ExposeSensor(camera.Background(), camera.Camera().sensor, camera.ExposureSeconds(), ++key));
+    benchmark::DoNotOptimize(sensor.Expose(camera.Background(), camera.ExposureSeconds(), ++key));
   }
   Rate(state, "pictures", 1);
 }
@@ -149,8 +145,9 @@ BENCHMARK(PictureSensor)->Unit(benchmark::kMillisecond);
 
 void PictureIdentify(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
-  const DigitalImage picture = ExposeSensor(camera.Signal(Shared().marker, Shared().surface),
-                                            camera.Camera().sensor, camera.ExposureSeconds(), 1);
+  const DigitalImage picture =
+      Sensor(camera.Camera())
+          .Expose(camera.Signal(Shared().marker, Shared().surface), camera.ExposureSeconds(), 1);
   for (auto _ : state) benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   Rate(state, "pictures", 1);
 }
@@ -159,11 +156,11 @@ BENCHMARK(PictureIdentify)->Unit(benchmark::kMillisecond);
 // Whole pictures: composed, and rendered from nothing.
 void ComposedPicture(benchmark::State& state) {
   const ComposedCamera& camera = SharedCamera();
+  const Sensor sensor(camera.Camera());
   uint64_t key = 0;
   for (auto _ : state) {
     const FloatPlane signal = camera.Signal(Shared().marker, Shared().surface);
-    const DigitalImage picture =
-        ExposeSensor(signal, camera.Camera().sensor, camera.ExposureSeconds(), ++key);
+    const DigitalImage picture = sensor.Expose(signal, camera.ExposureSeconds(), ++key);
     benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   }
   state.counters["pictures_per_minute"] =
@@ -181,7 +178,7 @@ void FullPicture(benchmark::State& state) {
     const Film film =
         RenderFilm(tracer, bench.camera.model, bench.lights.GroupNames(), NoProgress());
     const DigitalImage picture =
-        ExposeSensor(film.electrons, bench.camera.sensor, bench.response.ExposureSeconds(), 1);
+        Sensor(bench.camera).Expose(film.electrons, bench.response.ExposureSeconds(), 1);
     benchmark::DoNotOptimize(IdentifyByEdges(picture, DefaultMarkerSet(), {}));
   }
   state.counters["pictures_per_minute"] =

@@ -3,12 +3,10 @@
 //
 //   build/release/bench/vault_study_bench
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
-
-#include <limits>
 
 #include "analysis/placement_search.h"
 #include "core/parallel.h"
+#include "renderer/bare_embree.h"
 #include "scenes/masks.h"
 
 namespace {
@@ -49,76 +47,19 @@ void Rate(benchmark::State& state, const char* name, double per_iteration) {
       benchmark::Counter(per_iteration, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-// Embree alone, with its default flags and nothing kept but the number of hits.
-class BareScene {
- public:
-  explicit BareScene(const TriangleMesh& mesh) {
-    device_ = rtcNewDevice(nullptr);
-    tree_ = rtcNewScene(device_);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Vec3f*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(Vec3f), mesh.positions.size()));
-    std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
-    auto* indices = static_cast<std::array<uint32_t, 3>*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(mesh.triangles[0]), mesh.triangles.size()));
-    std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(tree_);
-  }
-  ~BareScene() {
-    rtcReleaseScene(tree_);
-    rtcReleaseDevice(device_);
-  }
-  BareScene(const BareScene&) = delete;
-  BareScene& operator=(const BareScene&) = delete;
-
-  int Hits(const CameraModel& camera, const PixelRect& crop) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    const Vec3f origin = camera.Centre().cast<float>();
-    const Eigen::Matrix3f turn = camera.camera_from_world.rotation.transpose().cast<float>();
-    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
-    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
-    alignas(64) int valid[16];
-    std::fill(valid, valid + 16, -1);
-    int hits = 0;
-    for (int y = crop.y0; y < crop.y0 + crop.height; y += 4) {
-      for (int x = crop.x0; x < crop.x0 + crop.width; x += 4) {
-        RTCRayHit16 packet{};
-        for (int i = 0; i < 16; ++i) {
-          const float u = (static_cast<float>(x + i % 4) - cx) / fx;
-          const float v = (static_cast<float>(y + i / 4) - cy) / fy;
-          packet.ray.org_x[i] = origin.x();
-          packet.ray.org_y[i] = origin.y();
-          packet.ray.org_z[i] = origin.z();
-          packet.ray.dir_x[i] = turn(0, 0) * u + turn(0, 1) * v + turn(0, 2);
-          packet.ray.dir_y[i] = turn(1, 0) * u + turn(1, 1) * v + turn(1, 2);
-          packet.ray.dir_z[i] = turn(2, 0) * u + turn(2, 1) * v + turn(2, 2);
-          packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-          packet.ray.mask[i] = ~0u;
-          packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        }
-        rtcIntersect16(valid, tree_, &context, &packet);
-        for (int i = 0; i < 16; ++i) hits += packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      }
-    }
-    return hits;
-  }
-
- private:
-  RTCDevice device_;
-  RTCScene tree_;
-};
-
 void BareEmbree16(benchmark::State& state) {
   const Bench& bench = Shared();
-  const BareScene bare(bench.scene.objects[0].mesh);
-  for (auto _ : state) benchmark::DoNotOptimize(bare.Hits(bench.camera, bench.crop));
+  const BareEmbree bare(bench.scene);
+  const Vec3f origin = bench.camera.Centre().cast<float>();
+  std::vector<Vec3f> directions;  // in tiles of 4 x 4
+  for (int y = bench.crop.y0; y < bench.crop.y0 + bench.crop.height; y += 4) {
+    for (int x = bench.crop.x0; x < bench.crop.x0 + bench.crop.width; x += 4) {
+      for (int i = 0; i < 16; ++i)
+        directions.push_back(
+            bench.camera.RayThrough(Vec2d(x + i % 4, y + i / 4)).direction.cast<float>());
+    }
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(bare.HitsInPackets(origin, directions));
   Rate(state, "rays", bench.Pixels());
 }
 BENCHMARK(BareEmbree16)->Unit(benchmark::kMillisecond);

@@ -37,11 +37,15 @@ inline constexpr int kExitCheckFailed = 3;
 // What the chosen subcommand does; returns the exit code.
 using Run = std::function<int()>;
 
+void SetUpBench(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpGoniometer(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpMaterial(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMask(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpValidate(CLI::App& app, const GlobalOptions& global, Run& run);
 
 // The progress bar or log that the global options ask for.
 std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global);

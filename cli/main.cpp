@@ -82,11 +82,15 @@ int main(int argc, char** argv) {
                  "auto (a bar on a terminal), json (lines for a log) or none")
       ->check(CLI::IsMember({"auto", "json", "none"}))
       ->capture_default_str();
+  SetUpBench(app, global, run);
   SetUpRender(app, global, run);
   SetUpScene(app, global, run);
   SetUpClassify(app, global, run);
   SetUpMask(app, global, run);
+  SetUpMaterial(app, global, run);
+  SetUpGoniometer(app, global, run);
   SetUpStudy(app, global, run);
+  SetUpValidate(app, global, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

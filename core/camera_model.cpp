@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/error.h"
+
 namespace retrolux {
 
 CameraModel CameraModel::FromFieldOfView(std::string name, int width, int height,
@@ -24,11 +26,20 @@ CameraModel CameraModel::FromFieldOfView(std::string name, int width, int height
 std::optional<Vec2d> CameraModel::Project(const Vec3d& x_in_world) const {
   const Vec3d x = camera_from_world * x_in_world;
   if (!(x.z() > 0.0)) return std::nullopt;
-  return Vec2d(fx * x.x() / x.z() + cx, fy * x.y() / x.z() + cy);
+  const Vec2d ideal = x.head<2>() / x.z();
+  if (ideal.norm() >= distortion.LargestRadius()) return std::nullopt;
+  const Vec2d real = distortion.Apply(ideal);
+  return Vec2d(fx * real.x() + cx, fy * real.y() + cy);
+}
+
+std::optional<Vec2d> CameraModel::PlanePoint(const Vec2d& px) const {
+  return distortion.Remove({(px.x() - cx) / fx, (px.y() - cy) / fy});
 }
 
 Ray CameraModel::RayThrough(const Vec2d& px) const {
-  const Vec3d in_camera((px.x() - cx) / fx, (px.y() - cy) / fy, 1.0);
+  const std::optional<Vec2d> ideal = PlanePoint(px);
+  RETROLUX_CHECK(ideal, "{}: no light falls on pixel ({}, {})", name, px.x(), px.y());
+  const Vec3d in_camera(ideal->x(), ideal->y(), 1.0);
   return {Centre(), camera_from_world.rotation.transpose() * in_camera.normalized()};
 }
 
@@ -84,12 +95,13 @@ std::string CamerasYaml(const std::vector<CameraModel>& cameras) {
   for (const CameraModel& camera : cameras) {
     const Mat3d& r = camera.camera_from_world.rotation;
     const Vec3d& t = camera.camera_from_world.translation;
+    const std::array<double, 5> d = camera.distortion.Coefficients();
     yaml += "   -\n";
     yaml += fmt::format("      name: \"{}\"\n      image_width: {}\n      image_height: {}\n",
                         camera.name, camera.width, camera.height);
     yaml +=
         Matrix("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
-    yaml += Matrix("distortion_coefficients", 1, 5, {0, 0, 0, 0, 0});
+    yaml += Matrix("distortion_coefficients", 1, 5, {d[0], d[1], d[2], d[3], d[4]});
     yaml +=
         Matrix("R", 3, 3,
                {r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)});

@@ -48,11 +48,13 @@ inline float PdfCosineHemisphere(float cos_theta) {
   return std::max(0.0f, cos_theta) / kPiF;
 }
 
-// The balance heuristic of multiple importance sampling (Veach 1995): the share of the technique
-// whose density is `pdf`.
-inline float BalanceHeuristic(float pdf, float other_pdf) {
-  const float sum = pdf + other_pdf;
-  return sum > 0.0f ? pdf / sum : 0.0f;
+// The power heuristic of multiple importance sampling with exponent 2 (Veach 1995): the share of
+// the technique whose density is `pdf`. Where one technique is far the better one, as light
+// sampling is for a small LED, it leaves the other next to nothing, and so its scatter.
+inline float PowerHeuristic(float pdf, float other_pdf) {
+  if (pdf <= 0.0f) return 0.0f;
+  const float ratio = other_pdf / pdf;
+  return 1.0f / (1.0f + ratio * ratio);
 }
 
 }  // namespace retrolux

@@ -10,10 +10,10 @@ struct Entry {
 };
 
 constexpr Entry kBsdfs[] = {
-    {"absorber", MakeAbsorber},
-    {"coated_diffuse", MakeCoatedDiffuse},
-    {"diffuse", MakeDiffuse},
-    {"retroreflector", MakeRetroreflector},
+    {"absorber", MakeAbsorber},          {"coated_diffuse", MakeCoatedDiffuse},
+    {"conductor", MakeConductor},        {"diffuse", MakeDiffuse},
+    {"retro_table", MakeRetroTable},     {"retroreflector", MakeRetroreflector},
+    {"rough_diffuse", MakeRoughDiffuse},
 };
 
 }  // namespace

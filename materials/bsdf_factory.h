@@ -7,7 +7,10 @@ namespace retrolux {
 
 std::shared_ptr<const Bsdf> MakeAbsorber(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeCoatedDiffuse(JsonReader& json);
+std::shared_ptr<const Bsdf> MakeConductor(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeDiffuse(JsonReader& json);
+std::shared_ptr<const Bsdf> MakeRetroTable(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeRetroreflector(JsonReader& json);
+std::shared_ptr<const Bsdf> MakeRoughDiffuse(JsonReader& json);
 
 }  // namespace retrolux

@@ -1,7 +1,8 @@
-// Share of the light that a rough dielectric surface reflects by single scattering, over the angle.
+// Share of the light that a rough surface reflects by single scattering, over the angle.
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace retrolux {
@@ -10,6 +11,8 @@ class DirectionalAlbedo {
  public:
   // Tabulated by quadrature for GGX of width `alpha` and a dielectric of index `ior`.
   DirectionalAlbedo(float ior, float alpha);
+  // Of facets that reflect all light.
+  static DirectionalAlbedo OfMirrors(float alpha);
 
   float At(float cos_theta) const {
     const float x = std::clamp(cos_theta, 0.0f, 1.0f) * static_cast<float>(table_.size() - 1);
@@ -21,6 +24,10 @@ class DirectionalAlbedo {
   float Mean() const { return mean_; }
 
  private:
+  // Share that a facet reflects, over the cosine of its incidence.
+  using Fresnel = std::function<float(float cosine)>;
+  DirectionalAlbedo(const Fresnel& fresnel, float alpha);
+
   std::vector<float> table_;
   float mean_ = 0.0f;
 };

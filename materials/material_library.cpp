@@ -34,4 +34,10 @@ std::vector<std::string> LibraryMaterialNames() {
   return Library().Keys();
 }
 
+Material NamedOrFile(const std::string& name_or_file) {
+  const std::filesystem::path file = name_or_file;
+  if (file.extension() != ".json") return LibraryMaterial(name_or_file);
+  return ReadMaterial(file.stem().string(), JsonReader::FromFile(file));
+}
+
 }  // namespace retrolux

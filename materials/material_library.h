@@ -18,5 +18,8 @@ Material ReadMaterial(const std::string& name, const JsonReader& json);
 // A material of the library; InputError that lists the known names.
 Material LibraryMaterial(const std::string& name);
 std::vector<std::string> LibraryMaterialNames();
+// As commands name materials: a file that ends in .json and holds {"type": ..., parameters}, else
+// one of the library.
+Material NamedOrFile(const std::string& name_or_file);
 
 }  // namespace retrolux

@@ -66,10 +66,26 @@ float Spectrum::Min() const {
   return samples_.empty() ? constant_ : *std::min_element(samples_.begin(), samples_.end());
 }
 
-Spectrum LedSpectrum(double peak_nm, double fwhm_nm) {
+const std::vector<std::string>& LedShapeNames() {
+  static const std::vector<std::string> names = {"gaussian", "ohno"};
+  return names;
+}
+
+LedShape LedShapeOf(const std::string& name) {
+  const std::vector<std::string>& names = LedShapeNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  RETROLUX_CHECK(found != names.end(), "no LED shape {}", name);
+  return static_cast<LedShape>(found - names.begin());
+}
+
+Spectrum LedSpectrum(const LedType& led) {
+  // Ohno's shape is half its maximum where g + 2 g^5 = 3/2, g = 0.808609: ln(1 / g) = c^2.
+  constexpr double kOhnoSquare = 0.2124395;
   return Spectrum::FromFunction([&](double nm) {
-           const double x = (nm - peak_nm) / fwhm_nm;
-           return std::exp(-4.0 * std::numbers::ln2 * x * x);
+           const double x = 2.0 * (nm - led.peak_nm) / led.fwhm_nm;
+           if (led.shape == LedShape::kGaussian) return std::exp(-std::numbers::ln2 * x * x);
+           const double g = std::exp(-kOhnoSquare * x * x);
+           return (g + 2.0 * std::pow(g, 5)) / 3.0;
          })
       .Normalised();
 }

@@ -65,8 +65,23 @@ class Spectrum {
   std::vector<float> samples_;  // empty: constant
 };
 
-// Emission of an LED as a Gaussian over wavelength, integral 1 (1/nm).
-Spectrum LedSpectrum(double peak_nm, double fwhm_nm);
+// The shape of an LED's emission over wavelength, with x = (lambda - peak) / fwhm. kGaussian:
+// exp(-4 ln 2 x^2). kOhno: (g + 2 g^5) / 3 with g = exp(-(2 c x)^2), c such that the width at half
+// maximum is right: a sharper peak on broader feet (Ohno, Opt. Eng. 44(11), 111302, 2005).
+enum class LedShape { kGaussian, kOhno };
+const std::vector<std::string>& LedShapeNames();  // in the order of the enumerators
+LedShape LedShapeOf(const std::string& name);     // one of the names
+
+// What the spectrum of an LED is known by.
+struct LedType {
+  double peak_nm = 0.0;
+  double fwhm_nm = 0.0;
+  LedShape shape = LedShape::kGaussian;
+  auto operator<=>(const LedType&) const = default;
+};
+
+// Emission of an LED over wavelength, integral 1 over 400 to 1100 nm (1/nm).
+Spectrum LedSpectrum(const LedType& led);
 
 // A reflectance or efficiency as scenes give it: a number from `min` to `max`, or the name of a
 // table under the data folder ("materials/data/x.csv").

@@ -20,11 +20,24 @@ double PhotonsPerJoule(double nm) {
   return nm * 1e-9 / (kPlanck_J_s * kSpeedOfLight_m_s);
 }
 
+// sin^2 of the largest field angle: that of a corner.
+double LargestSine2(const CameraModel& model) {
+  double largest = 0.0;
+  for (const double u : {-0.5, model.width - 0.5}) {
+    for (const double v : {-0.5, model.height - 0.5}) {
+      const double cosine = model.RayThrough({u, v}).direction.dot(model.Forward());
+      largest = std::max(largest, 1.0 - cosine * cosine);
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 double GainDnPerElectron(const SensorSpec& sensor) {
   if (sensor.gain_dn_e > 0.0) return sensor.gain_dn_e;
-  return ((1 << sensor.adc_bits) - 1 - sensor.offset_dn) / sensor.full_well_e;
+  return ((1 << sensor.adc_bits) - 1 - sensor.offset_dn) /
+         (sensor.LinesPerRow() * sensor.full_well_e);
 }
 
 CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spectrum>& spectra,
@@ -33,63 +46,79 @@ CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spect
       exposure_s_(exposure_s),
       quantum_efficiency_(Spectrum::FromTable(DataPath(camera.sensor.quantum_efficiency))),
       spectra_(spectra) {
-  const CameraModel& model = camera_.model;
-  for (const double u : {-0.5, model.width - 0.5}) {
-    for (const double v : {-0.5, model.height - 0.5}) {
-      const double cosine = model.RayThrough({u, v}).direction.dot(model.Forward());
-      max_sin_theta_ = std::max(max_sin_theta_, std::sqrt(1.0 - cosine * cosine));
-    }
-  }
   full_scale_e_ = ((1 << camera.sensor.adc_bits) - 1 - camera.sensor.offset_dn) /
                   GainDnPerElectron(camera.sensor);
-  for (const Spectrum& emission : spectra_) bands_.push_back(MakeBand(emission));
+  const int angles = camera_.filter ? kAngles : 1;
+  step_sin2_ = LargestSine2(camera_.model) / angles;
+  for (int i = 0; i < angles; ++i) {
+    const std::vector<double> transmission =
+        LargestTransmission(i * step_sin2_, (i + 1) * step_sin2_);
+    std::vector<Band>& bands = bands_.emplace_back();
+    for (const Spectrum& emission : spectra_) bands.push_back(MakeBand(emission, transmission));
+  }
 }
 
 double CameraResponse::FilterAt(double nm, double sin_theta) const {
   return camera_.filter ? camera_.filter->Transmission(nm, sin_theta) : 1.0;
 }
 
-// m2 s: pi / (4 N^2) T A t cos^4.
-double CameraResponse::GeometricFactor(double cos_theta) const {
+// m2 s: pi / (4 N^2) T A t.
+double CameraResponse::AxialFactor() const {
   const Lens& lens = camera_.lens;
   const double pixel_width_m = 1e-3 * lens.focal_length_mm / camera_.model.fx;
   const double pixel_height_m = 1e-3 * lens.focal_length_mm / camera_.model.fy;
-  const double cos2 = cos_theta * cos_theta;
   return kPi / (4.0 * lens.f_number * lens.f_number) * lens.transmission * pixel_width_m *
-         pixel_height_m * exposure_s_ * cos2 * cos2;
+         pixel_height_m * exposure_s_;
 }
 
-CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission) const {
-  Band band;
-  std::vector<double> density(kCells);
+// In each cell, at the two ends of the step: in between the band is no farther.
+std::vector<double> CameraResponse::LargestTransmission(double sin2_from, double sin2_to) const {
+  std::vector<double> transmission;
   for (int i = 0; i < kCells; ++i) {
     const double nm = CellCentre(i);
-    const double envelope = std::max(
-        {FilterAt(nm, 0.0), FilterAt(nm, 0.5 * max_sin_theta_), FilterAt(nm, max_sin_theta_)});
+    transmission.push_back(
+        std::max(FilterAt(nm, std::sqrt(sin2_from)), FilterAt(nm, std::sqrt(sin2_to))));
+  }
+  return transmission;
+}
+
+CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission,
+                                              const std::vector<double>& transmission) const {
+  Band band;
+  std::vector<double> density(kCells);
+  double total = 0.0;
+  for (int i = 0; i < kCells; ++i) {
+    const double nm = CellCentre(i);
     const auto f = static_cast<float>(nm);
-    const double value = static_cast<double>(emission.At(f)) * envelope *
-                         static_cast<double>(quantum_efficiency_.At(f)) * PhotonsPerJoule(nm);
-    density[static_cast<size_t>(i)] = value;
-    band.total += value;
+    const auto cell = static_cast<size_t>(i);
+    density[cell] = static_cast<double>(emission.At(f)) * transmission[cell] *
+                    static_cast<double>(quantum_efficiency_.At(f)) * PhotonsPerJoule(nm);
+    total += density[cell];
   }
   double sum = 0.0;
   for (const double value : density) {
     sum += value;
-    band.cumulative.push_back(static_cast<float>(band.total > 0.0 ? sum / band.total : 1.0));
+    band.cumulative.push_back(static_cast<float>(total > 0.0 ? sum / total : 1.0));
   }
   for (int i = 0; i < kCells; ++i) {
     const double d = density[static_cast<size_t>(i)];
     const double emitted = static_cast<double>(emission.At(static_cast<float>(CellCentre(i))));
-    band.emission_over_density.push_back(
-        static_cast<float>(d > 0.0 ? band.total * emitted / d : 0.0));
+    band.emission_over_density.push_back(static_cast<float>(d > 0.0 ? total * emitted / d : 0.0));
   }
   return band;
 }
 
-Spectral CameraResponse::SampleWavelengths(float u) const {
+const std::vector<CameraResponse::Band>& CameraResponse::BandsAt(float cos_theta) const {
+  const auto cosine = static_cast<double>(cos_theta);
+  const double step = std::max(0.0, 1.0 - cosine * cosine) / step_sin2_;
+  return bands_[std::min(bands_.size() - 1, static_cast<size_t>(step))];
+}
+
+Spectral CameraResponse::SampleWavelengths(float u, float cos_theta) const {
+  const std::vector<Band>& bands = BandsAt(cos_theta);
   Spectral nm = Spectral::Constant(static_cast<float>(kMinWavelength_nm));
-  for (size_t k = 0; k < bands_.size(); ++k) {
-    const std::vector<float>& cumulative = bands_[k].cumulative;
+  for (size_t k = 0; k < bands.size(); ++k) {
+    const std::vector<float>& cumulative = bands[k].cumulative;
     const auto cell = std::min<ptrdiff_t>(
         std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin(), kCells - 1);
     nm[static_cast<Eigen::Index>(k)] = static_cast<float>(CellCentre(static_cast<int>(cell)));
@@ -97,19 +126,21 @@ Spectral CameraResponse::SampleWavelengths(float u) const {
   return nm;
 }
 
-CameraResponse::Weights CameraResponse::WeightsAt(const Spectral& nm, float cos_theta) const {
+CameraResponse::Weights CameraResponse::WeightsAt(const Spectral& nm, float cos_theta,
+                                                  float falloff) const {
   const auto cosine = static_cast<double>(cos_theta);
   const double sin_theta = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const double geometry = GeometricFactor(cosine);
+  const double geometry = AxialFactor() * static_cast<double>(falloff);
   const double peak = camera_.filter ? camera_.filter->peak_transmission : 1.0;
+  const std::vector<Band>& bands = BandsAt(cos_theta);
   Weights weights{Spectral::Zero(), Spectral::Zero()};
-  for (size_t k = 0; k < bands_.size(); ++k) {
+  for (size_t k = 0; k < bands.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const auto lambda = static_cast<double>(nm[i]);
     const auto cell = static_cast<size_t>(lambda - kMinWavelength_nm);
     const double transmission = FilterAt(lambda, sin_theta);
     const auto per_density =
-        static_cast<double>(bands_[k].emission_over_density[cell]) * transmission;  // S T / p
+        static_cast<double>(bands[k].emission_over_density[cell]) * transmission;  // S T / p
     weights.in_band[i] = static_cast<float>(per_density / peak);
     weights.electrons[i] = static_cast<float>(geometry * per_density *
                                               static_cast<double>(quantum_efficiency_.At(nm[i])) *
@@ -118,7 +149,7 @@ CameraResponse::Weights CameraResponse::WeightsAt(const Spectral& nm, float cos_
   return weights;
 }
 
-double CameraResponse::ExpectedElectrons(int spectrum, double cos_theta) const {
+double CameraResponse::ExpectedElectrons(int spectrum, double cos_theta, double falloff) const {
   const double sin_theta = std::sqrt(std::max(0.0, 1.0 - cos_theta * cos_theta));
   double sum = 0.0;
   for (int i = 0; i < kCells; ++i) {
@@ -128,7 +159,21 @@ double CameraResponse::ExpectedElectrons(int spectrum, double cos_theta) const {
                                quantum_efficiency_.At(f)) *
            FilterAt(nm, sin_theta) * PhotonsPerJoule(nm);
   }
-  return GeometricFactor(cos_theta) * sum;
+  return AxialFactor() * falloff * sum;
+}
+
+double CameraResponse::MeanWavelength_nm() const {
+  double sum = 0.0, weighted = 0.0;
+  for (int i = 0; i < kCells; ++i) {
+    const double nm = CellCentre(i);
+    const auto f = static_cast<float>(nm);
+    const double electrons =
+        static_cast<double>(spectra_.front().At(f) * quantum_efficiency_.At(f)) *
+        FilterAt(nm, 0.0) * PhotonsPerJoule(nm);
+    sum += electrons;
+    weighted += nm * electrons;
+  }
+  return sum > 0.0 ? weighted / sum : 0.5 * (kMinWavelength_nm + kMaxWavelength_nm);
 }
 
 }  // namespace retrolux

@@ -7,7 +7,7 @@ namespace retrolux {
 double FrontalMarkerRadiance(const CameraSpec& camera, const Bsdf& material, double distance_mm) {
   const DiodeRing& ring = *camera.ring;
   const Vec3f wo = Vec3f::UnitZ();
-  const Spectral nm = Spectral::Constant(static_cast<float>(ring.peak_nm));
+  const Spectral nm = Spectral::Constant(static_cast<float>(ring.Led().peak_nm));
   const double slant2_m2 = (distance_mm * distance_mm + ring.radius_mm * ring.radius_mm) * 1e-6;
   const double cosine = distance_mm * 1e-3 / std::sqrt(slant2_m2);
   double radiance = 0.0;
@@ -17,7 +17,7 @@ double FrontalMarkerRadiance(const CameraSpec& camera, const Bsdf& material, dou
         Vec3d(ring.radius_mm * std::cos(angle), ring.radius_mm * std::sin(angle), distance_mm)
             .normalized()
             .cast<float>();
-    const double intensity = ring.radiant_intensity_w_sr * std::pow(cosine, ring.LambertExponent());
+    const double intensity = ring.Intensity_w_sr() * std::pow(cosine, ring.LambertExponent());
     radiance += static_cast<double>(material.Evaluate(wo, wi, nm).f_cos[0]) * intensity / slant2_m2;
   }
   return radiance;
@@ -34,8 +34,7 @@ double ExposureSeconds(const Scene& scene, const CameraSpec& camera) {
   }
   const double radiance = FrontalMarkerRadiance(
       camera, *scene.materials.at(exposure.marker_material).bsdf, exposure.distance_mm);
-  const CameraResponse one_second(camera, {LedSpectrum(camera.ring->peak_nm, camera.ring->fwhm_nm)},
-                                  1.0);
+  const CameraResponse one_second(camera, {LedSpectrum(camera.ring->Led())}, 1.0);
   if (!(radiance > 0.0)) {
     throw InputError(
         fmt::format("camera '{}': a frontal marker of '{}' sends no light in its ring's light; "
@@ -44,7 +43,8 @@ double ExposureSeconds(const Scene& scene, const CameraSpec& camera) {
                     camera.model.name, exposure.marker_material));
   }
   const double electrons_per_s =
-      radiance * one_second.ExpectedElectrons(0, 1.0) + camera.sensor.dark_current_e_s;
+      radiance * one_second.ExpectedElectrons(0, 1.0, 1.0) +
+      camera.sensor.dark_current_e_s * camera.sensor.DarkCurrentFactor();
   const double max_dn = (1 << camera.sensor.adc_bits) - 1;
   const double wanted_e =
       (exposure.fraction * max_dn - camera.sensor.offset_dn) / GainDnPerElectron(camera.sensor);
@@ -54,7 +54,7 @@ double ExposureSeconds(const Scene& scene, const CameraSpec& camera) {
                     "more, or exposure.time_s in seconds",
                     camera.model.name, exposure.fraction));
   }
-  return wanted_e / electrons_per_s;
+  return wanted_e / (camera.sensor.LinesPerRow() * electrons_per_s);
 }
 
 }  // namespace retrolux

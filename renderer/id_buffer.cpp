@@ -26,6 +26,8 @@ PixelRect Crop(const CameraModel& camera, const std::vector<Vec3f>& points) {
 }
 
 IdBuffer RenderIdBuffer(const RayScene& rays, const CameraModel& camera, const PixelRect& crop) {
+  RETROLUX_CHECK(camera.distortion.IsNone(), "{}: a grid of rays is one without distortion",
+                 camera.name);
   IdBuffer buffer{crop, IdPlane(crop.width, crop.height), FloatPlane(crop.width, crop.height)};
   const Mat3d world_from_camera = camera.camera_from_world.rotation.transpose();
   // Camera z = 1, so that the distance along a ray is the depth along the axis.

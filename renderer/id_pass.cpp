@@ -38,7 +38,7 @@ IdBuffers RenderIds(const RayScene& rays, const CameraModel& camera,
     std::vector<RayScene::PacketHit> hits(directions.size());
     for (int x = 0; x < width; ++x) {
       // Camera z = 1, so that the distance along the ray is the depth along the axis.
-      const Vec3d in_camera((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+      const Vec3d in_camera = camera.PlanePoint(Vec2d(x, y))->homogeneous();
       directions[static_cast<size_t>(x)] = world_from_camera * in_camera.cast<float>();
     }
     rays.IntersectPacket(origin, directions, hits);

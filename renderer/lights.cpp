@@ -25,13 +25,12 @@ float Lights::Ring::RadianceAt(float cos_theta) const {
          (led_area_mm2 * kSquareMetrePerSquareMm);
 }
 
-int Lights::SpectrumIndex(double peak_nm, double fwhm_nm) {
-  const std::pair<double, double> type(peak_nm, fwhm_nm);
+int Lights::SpectrumIndex(const LedType& type) {
   for (size_t i = 0; i < led_types_.size(); ++i) {
     if (led_types_[i] == type) return static_cast<int>(i);
   }
   led_types_.push_back(type);
-  spectra_.push_back(LedSpectrum(peak_nm, fwhm_nm));
+  spectra_.push_back(LedSpectrum(type));
   return static_cast<int>(spectra_.size()) - 1;
 }
 
@@ -54,11 +53,10 @@ Lights::Lights(const Scene& scene, const RayScene& rays, RingChoice choice,
     }
     ring.axis = camera.model.Forward().cast<float>();
     ring.led_area_mm2 = static_cast<float>(kPi * spec.led_radius_mm * spec.led_radius_mm);
-    ring.intensity = static_cast<float>(spec.radiant_intensity_w_sr);
+    ring.intensity = static_cast<float>(spec.Intensity_w_sr());
     ring.exponent = static_cast<float>(spec.LambertExponent());
     group_of_body_[ring_body] = GroupCount();
-    groups_.push_back(
-        {camera.model.name, Kind::kRing, SpectrumIndex(spec.peak_nm, spec.fwhm_nm), ring_body});
+    groups_.push_back({camera.model.name, Kind::kRing, SpectrumIndex(spec.Led()), ring_body});
     rings_.push_back(std::move(ring));
   }
   spectra_.push_back(Spectrum::FromTable(DataPath(scene.ambient.spectrum)).Normalised());
@@ -102,9 +100,13 @@ std::optional<LightSample> Lights::Sample(int group, const Vec3f& x, float pick,
 std::optional<LightSample> Lights::SampleRing(const Ring& ring, const Vec3f& x, float pick,
                                               const Vec2f& u) const {
   // `pick` chooses the LED, u the triangle and the place in it: all triangles have the same area.
-  const size_t led = std::min(static_cast<size_t>(pick * static_cast<float>(ring.centres.size())),
-                              ring.centres.size() - 1);
-  const float along = u.x() * kLedCorners;
+  // Angles are counted from the direction away from the ring's centre, so that u alone decides how
+  // far from the axis the point is, on which retro-reflection depends: else it would depend on how
+  // u and `pick` fall together, and only each of them is well spread.
+  const auto count = static_cast<float>(ring.centres.size());
+  const size_t led = std::min(static_cast<size_t>(pick * count), ring.centres.size() - 1);
+  const float turn = u.x() + static_cast<float>(led) / count;
+  const float along = (turn - std::floor(turn)) * kLedCorners;
   const size_t corner = std::min(static_cast<size_t>(along), ring.outlines[led].size() - 1);
   const float root = std::sqrt(u.y());
   const float b = root * (along - static_cast<float>(corner));

@@ -67,7 +67,7 @@ class Lights {
     float led_area_mm2, intensity, exponent;
     float RadianceAt(float cos_theta) const;
   };
-  int SpectrumIndex(double peak_nm, double fwhm_nm);
+  int SpectrumIndex(const LedType& type);
   std::optional<LightSample> SampleRing(const Ring& ring, const Vec3f& x, float pick,
                                         const Vec2f& u) const;
   std::optional<LightSample> SamplePanels(const Vec3f& x, float pick, const Vec2f& u) const;
@@ -77,7 +77,7 @@ class Lights {
   std::vector<Group> groups_;
   std::vector<Ring> rings_;        // one for each ring group, in order
   std::vector<Spectrum> spectra_;  // each with integral 1
-  std::vector<std::pair<double, double>> led_types_;
+  std::vector<LedType> led_types_;
   std::vector<LightPanel> panels_;
   std::vector<double> panel_areas_cumulative_;
   float panel_radiance_ = 0.0f;

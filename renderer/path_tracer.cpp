@@ -21,10 +21,12 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& l
       rays_(rays),
       lights_(lights),
       response_(response),
+      lens_(response.Camera()),
       markers_(markers),
       options_(options),
-      image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))),
-      camera_centre_(response.Camera().model.Centre().cast<float>()) {
+      image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))) {
+  if (response.Camera().lens.diffraction)
+    airy_.emplace(response.Camera(), response.MeanWavelength_nm());
   for (const SceneObject& object : scene_.objects)
     bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
 }
@@ -63,7 +65,7 @@ void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, con
     const Vec3f wi = vertex.frame.LocalFromWorld(light->direction);
     const int k = lights_.SpectrumOf(group);
     const BsdfValue value = vertex.bsdf->Evaluate(vertex.wo, wi, nm);
-    const float share = BalanceHeuristic(light->pdf, value.pdf);
+    const float share = PowerHeuristic(light->pdf, value.pdf);
     unshadowed[group] = throughput[k] * value.f_cos[k] * light->radiance / light->pdf * share;
     targets[static_cast<size_t>(group)] = light->position;
   }
@@ -94,7 +96,7 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
   Spectral throughput = Spectral::Ones();
   float pdf = 0.0f;  // of the direction by the last BSDF; 0 for the camera's ray
   const auto add_emission = [&](const Lights::Emission& emission) {
-    const float share = pdf > 0.0f ? BalanceHeuristic(pdf, emission.pdf) : 1.0f;
+    const float share = pdf > 0.0f ? PowerHeuristic(pdf, emission.pdf) : 1.0f;
     path.radiance[emission.group] +=
         throughput[lights_.SpectrumOf(emission.group)] * emission.radiance * share;
   };
@@ -172,22 +174,25 @@ class CoverageSum {
 
 }  // namespace
 
+std::optional<LensRays::LensRay> PathTracer::SampleLens(int x, int y, PixelSampler& sampler) const {
+  Vec2d px = Vec2d(x, y) + sampler.Next2D().cast<double>() - Vec2d(0.5, 0.5);
+  if (airy_) px += airy_->SampleCore(sampler.Next2D());
+  return lens_.Through(px, lens_.HasAperture() ? sampler.Next2D() : Vec2f::Zero());
+}
+
 PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
-  const CameraModel& camera = response_.Camera().model;
   const uint64_t pixel_key =
       CombineKeys(image_key_, static_cast<uint64_t>(y) << 32 | static_cast<uint64_t>(x));
-  const Vec3d forward = camera.Forward();
   Eigen::Array<double, kMaxLightGroups, 1> sums = Eigen::Array<double, kMaxLightGroups, 1>::Zero();
   double sum = 0.0, sum2 = 0.0, radiance = 0.0;
   CoverageSum coverage;
   for (int s = 0; s < options_.samples_per_pixel; ++s) {
     PixelSampler sampler(pixel_key, static_cast<uint32_t>(s));
-    const Vec2f in_pixel = sampler.Next2D();
-    const Ray ray = camera.RayThrough(Vec2d(x, y) + in_pixel.cast<double>() - Vec2d(0.5, 0.5));
-    const Spectral nm = response_.SampleWavelengths(sampler.Next1D());
-    const PathSample path = TracePath(camera_centre_, ray.direction.cast<float>(), nm, sampler);
-    const CameraResponse::Weights weights =
-        response_.WeightsAt(nm, static_cast<float>(ray.direction.dot(forward)));
+    const std::optional<LensRays::LensRay> ray = SampleLens(x, y, sampler);
+    if (!ray) continue;  // a sample that brings no light
+    const Spectral nm = response_.SampleWavelengths(sampler.Next1D(), ray->cos_field);
+    const PathSample path = TracePath(ray->origin, ray->direction, nm, sampler);
+    const CameraResponse::Weights weights = response_.WeightsAt(nm, ray->cos_field, ray->falloff);
     double total = 0.0;
     for (int group = 0; group < lights_.GroupCount(); ++group) {
       const int k = lights_.SpectrumOf(group);

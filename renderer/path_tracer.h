@@ -3,7 +3,9 @@
 #pragma once
 
 #include "core/sampler.h"
+#include "renderer/airy.h"
 #include "renderer/camera_response.h"
+#include "renderer/lens.h"
 #include "scenes/marker_placement.h"
 
 namespace retrolux {
@@ -48,7 +50,8 @@ class PathTracer {
              const CameraResponse& response, const std::vector<PlacedMarker>& markers,
              const TraceOptions& options);
 
-  // The pixel's box of one by one px. Depends on nothing but the scene, the seed and (x, y).
+  // The pixel's box of one by one px, as the lens draws it (all but LensScatter). Depends on
+  // nothing but the scene, the seed and (x, y).
   PixelEstimate EstimatePixel(int x, int y) const;
 
   // Band radiance by light group along a ray, one sample, with the marker that it meets first (0:
@@ -62,6 +65,8 @@ class PathTracer {
 
  private:
   struct Vertex;
+  // A ray from a place of the pixel, spread by diffraction, through a place of the aperture.
+  std::optional<LensRays::LensRay> SampleLens(int x, int y, PixelSampler& sampler) const;
   Vertex MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const;
   void AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
                  bool every_group, PixelSampler& sampler, GroupValues& radiance) const;
@@ -70,11 +75,12 @@ class PathTracer {
   const RayScene& rays_;
   const Lights& lights_;
   const CameraResponse& response_;
+  LensRays lens_;
+  std::optional<AiryDisc> airy_;
   const std::vector<PlacedMarker>& markers_;
   TraceOptions options_;
   uint64_t image_key_;
   std::vector<const Bsdf*> bsdf_of_object_;
-  Vec3f camera_centre_;
 };
 
 }  // namespace retrolux

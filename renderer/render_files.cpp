@@ -14,7 +14,8 @@ void AddCamera(const CameraModel& camera, std::map<std::string, std::string>& at
   const Mat3d& r = camera.camera_from_world.rotation;
   const Vec3d& t = camera.camera_from_world.translation;
   attributes["opencv/K"] = Join({camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
-  attributes["opencv/distortion"] = "0 0 0 0 0";
+  const std::array<double, 5> d = camera.distortion.Coefficients();
+  attributes["opencv/distortion"] = Join({d.begin(), d.end()});
   attributes["opencv/R"] =
       Join({r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)});
   attributes["opencv/t"] = Join({t.x(), t.y(), t.z()});

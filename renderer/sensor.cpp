@@ -1,100 +1,90 @@
 #include "renderer/sensor.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/error.h"
+#include "core/hash.h"
 #include "renderer/camera_response.h"
+#include "renderer/sensor_blooming.h"
+#include "renderer/sensor_fields.h"
+#include "renderer/sensor_noise.h"
+#include "renderer/sensor_smear.h"
 
 namespace retrolux {
 
 namespace {
 
-// The first count whose cumulated probability exceeds a uniform number.
-double PoissonByInversion(double mean, KeyedRng& rng) {
-  constexpr double kLast = 200.0;  // beyond any probability that 53 bits resolve, at means below 10
-  double rest = rng.NextDouble();
-  double probability = std::exp(-mean);
-  double count = 0.0;
-  while (rest >= probability && count < kLast) {
-    rest -= probability;
-    count += 1.0;
-    probability *= mean / count;
-  }
-  return count;
-}
+// Each source of temporal noise has numbers of its own.
+constexpr uint64_t kSmearNoise = HashBytes("smear noise");
+constexpr uint64_t kReadNoise = HashBytes("read noise");
+constexpr uint64_t kSecondField = HashBytes("second field");
 
-double PoissonByRejection(double mean, KeyedRng& rng) {
-  const double root = std::sqrt(mean);
-  const double b = 0.931 + 2.53 * root;
-  const double a = -0.059 + 0.02483 * b;
-  const double v_r = 0.9277 - 3.6224 / (b - 2.0);
-  while (true) {
-    const double u = rng.NextDouble() - 0.5;
-    const double v = rng.NextDouble();
-    const double us = 0.5 - std::abs(u);
-    const double k = std::floor((2.0 * a / us + b) * u + mean + 0.43);
-    if (us >= 0.07 && v <= v_r) return k;
-    if (k < 0.0 || (us < 0.013 && v > us)) continue;
-    const double inverse_alpha = 1.1239 + 1.1328 / (b - 3.4);
-    if (std::log(v * inverse_alpha / (a / (us * us) + b)) <=
-        -mean + k * std::log(mean) - std::lgamma(k + 1.0)) {
-      return k;
-    }
+void AddSmear(const Smear& smear, const FloatPlane& mean_electrons, double exposure_s, uint64_t key,
+              Plane<double>& charge_e) {
+  const std::vector<double> mean_e = SmearCharge(smear, mean_electrons, exposure_s);
+  for (size_t i = 0; i < charge_e.data.size(); ++i) {
+    KeyedRng rng(CombineKeys(key, i));
+    charge_e.data[i] += SamplePoisson(mean_e[i % mean_e.size()], rng);
   }
 }
 
 }  // namespace
 
-double SamplePoisson(double mean, KeyedRng& rng) {
-  if (mean <= 0.0) return 0.0;
-  return mean < 10.0 ? PoissonByInversion(mean, rng) : PoissonByRejection(mean, rng);
+Sensor::Sensor(const SensorSpec& spec, const std::string& camera, int width, int height)
+    : spec_(spec), pattern_(MakePixelPattern(spec, camera, width, height)) {}
+
+Sensor::Sensor(const CameraSpec& camera)
+    : Sensor(camera.sensor, camera.model.name, camera.model.width, camera.model.height) {}
+
+// The charges of all photosites at the end of an exposure, as they are read.
+Plane<double> Sensor::Collect(const FloatPlane& mean_electrons, double exposure_s,
+                              uint64_t key) const {
+  Plane<double> charge_e(mean_electrons.width, mean_electrons.height);
+  for (size_t i = 0; i < charge_e.data.size(); ++i) {
+    const double mean_e = static_cast<double>(mean_electrons.data[i] * pattern_.response.data[i]) +
+                          static_cast<double>(pattern_.dark_current_e_s.data[i]) * exposure_s;
+    KeyedRng rng(CombineKeys(key, i));
+    charge_e.data[i] = SamplePoisson(mean_e, rng);
+  }
+  if (spec_.blooming) Bloom(*spec_.blooming, spec_.full_well_e, charge_e);
+  for (size_t i = 0; i < charge_e.data.size(); ++i) {
+    charge_e.data[i] = std::min(charge_e.data[i], spec_.full_well_e) +
+                       static_cast<double>(pattern_.offset_e.data[i]);
+  }
+  // In the register, which holds more than a photosite.
+  if (spec_.smear) {
+    AddSmear(*spec_.smear, mean_electrons, exposure_s, CombineKeys(key, kSmearNoise), charge_e);
+  }
+  return charge_e;
 }
 
-double InverseNormalCdf(double p) {
-  constexpr double a[] = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
-                          1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
-  constexpr double b[] = {-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02,
-                          6.680131188771972e+01, -1.328068155288572e+01};
-  constexpr double c[] = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
-                          -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
-  constexpr double d[] = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
-                          3.754408661907416e+00};
-  constexpr double kTail = 0.02425;
-  const auto tail = [&](double q) {
-    return (((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
-           ((((d[0] * q + d[1]) * q + d[2]) * q + d[3]) * q + 1.0);
-  };
-  if (p < kTail) return tail(std::sqrt(-2.0 * std::log(p)));
-  if (p > 1.0 - kTail) return -tail(std::sqrt(-2.0 * std::log(1.0 - p)));
-  const double q = p - 0.5;
-  const double r = q * q;
-  return (((((a[0] * r + a[1]) * r + a[2]) * r + a[3]) * r + a[4]) * r + a[5]) * q /
-         (((((b[0] * r + b[1]) * r + b[2]) * r + b[3]) * r + b[4]) * r + 1.0);
-}
-
-// Half a step off zero, so that the tail is finite: 8.2 standard deviations at most.
-double SampleNormal(KeyedRng& rng) {
-  return InverseNormalCdf(rng.NextDouble() + 0x1p-54);
-}
-
-DigitalImage ExposeSensor(const FloatPlane& mean_electrons, const SensorSpec& sensor,
-                          double exposure_s, uint64_t noise_key) {
-  const double gain = GainDnPerElectron(sensor);
-  const double dark_e = sensor.dark_current_e_s * exposure_s;
-  const double max_dn = (1 << sensor.adc_bits) - 1;
+DigitalImage Sensor::ReadOut(const Plane<double>& charge_e, uint64_t key) const {
+  const double gain = GainDnPerElectron(spec_);
+  const double max_dn = (1 << spec_.adc_bits) - 1;
   DigitalImage image;
-  image.bits = sensor.adc_bits;
-  image.dn = Plane<uint16_t>(mean_electrons.width, mean_electrons.height);
-  for (size_t i = 0; i < mean_electrons.data.size(); ++i) {
-    KeyedRng rng(CombineKeys(noise_key, i));
-    const double collected =
-        SamplePoisson(static_cast<double>(mean_electrons.data[i]) + dark_e, rng);
-    const double electrons =
-        std::min(collected, sensor.full_well_e) + sensor.read_noise_e * SampleNormal(rng);
-    image.dn.data[i] = static_cast<uint16_t>(
-        std::clamp(std::round(sensor.offset_dn + gain * electrons), 0.0, max_dn));
+  image.bits = spec_.adc_bits;
+  image.dn = Plane<uint16_t>(charge_e.width, charge_e.height);
+  KeyedRng rng(key);  // one number for each pixel, in their order
+  for (size_t i = 0; i < charge_e.data.size(); ++i) {
+    const double dn =
+        spec_.offset_dn + gain * (charge_e.data[i] + spec_.read_noise_e * SampleNormal(rng));
+    image.dn.data[i] = static_cast<uint16_t>(std::clamp(dn, 0.0, max_dn) + 0.5);  // rounds
   }
   return image;
+}
+
+DigitalImage Sensor::Expose(const FloatPlane& mean_electrons, double exposure_s,
+                            uint64_t picture_key) const {
+  RETROLUX_CHECK(mean_electrons.width == pattern_.response.width &&
+                     mean_electrons.height == pattern_.response.height,
+                 "a signal of {} x {} px on a sensor of {} x {} px", mean_electrons.width,
+                 mean_electrons.height, pattern_.response.width, pattern_.response.height);
+  Plane<double> charge_e = Collect(mean_electrons, exposure_s, picture_key);
+  if (spec_.scan == Scan::kInterlaced) {
+    charge_e = WeaveFields(
+        charge_e, Collect(mean_electrons, exposure_s, CombineKeys(picture_key, kSecondField)));
+  }
+  return ReadOut(charge_e, CombineKeys(picture_key, kReadNoise));
 }
 
 }  // namespace retrolux

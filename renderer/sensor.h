@@ -1,30 +1,37 @@
-// From the mean signal to the digital picture, by EMVA 1288's linear model:
-//   electrons  Poisson(signal + dark current x time)      shot noise
-//              at most the full well
-//              + Normal(0, read noise)
-//   DN         round(offset + gain x electrons), clipped to the range of the ADC
+// From the mean signal to the digital picture, by EMVA 1288's linear model (Release 4.0):
+//   charge  Poisson(signal x response + dark current x time)     shot noise of the sum, PRNU
+//           at most the full well
+//           + the pixel's offset                                 DSNU
+//           + Normal(0, read noise)
+//   DN      round(offset + gain x charge), clipped to the range of the ADC
+// and what the options of SensorSpec add, each where it happens (renderer/sensor_*.h). The signal
+// is in photo-electrons: the quantum efficiency is in it already (camera_response.h).
 #pragma once
 
-#include "core/plane.h"
-#include "core/rng.h"
-#include "scenes/scene.h"
+#include "renderer/sensor_pattern.h"
 
 namespace retrolux {
 
-// A number of the Poisson distribution of the given mean, exact: inversion below 10, transformed
-// rejection (Hoermann, Insurance: Mathematics and Economics 12, 1993, PTRS) from there on. mean in
-// [0, 1e9].
-double SamplePoisson(double mean, KeyedRng& rng);
+// The sensor of one camera. What its pixels have of their own is drawn once, so that all pictures
+// share it.
+class Sensor {
+ public:
+  // `camera` names the part if the sensor has no serial.
+  Sensor(const SensorSpec& spec, const std::string& camera, int width, int height);
+  explicit Sensor(const CameraSpec& camera);
 
-// Where the standard normal distribution has the cumulated probability p in (0, 1): a rational
-// approximation with a relative error below 1.2e-9 (Acklam 2003).
-double InverseNormalCdf(double p);
+  // One exposure (of each field, if the scan is interlaced) to a mean signal in electrons per
+  // photosite. `picture_key` names the picture: its temporal noise depends on the key and on the
+  // pixel alone, not on the order or on threads. Any number of threads may call it.
+  DigitalImage Expose(const FloatPlane& mean_electrons, double exposure_s,
+                      uint64_t picture_key) const;
 
-// A number of the standard normal distribution, by inversion.
-double SampleNormal(KeyedRng& rng);
+ private:
+  Plane<double> Collect(const FloatPlane& mean_electrons, double exposure_s, uint64_t key) const;
+  DigitalImage ReadOut(const Plane<double>& charge_e, uint64_t key) const;
 
-// `noise_key` names the picture; each pixel has its own numbers, whatever the order.
-DigitalImage ExposeSensor(const FloatPlane& mean_electrons, const SensorSpec& sensor,
-                          double exposure_s, uint64_t noise_key);
+  SensorSpec spec_;
+  PixelPattern pattern_;
+};
 
 }  // namespace retrolux

@@ -21,6 +21,10 @@ const std::vector<BuiltInEntry>& BuiltInScenes() {
        "the treatment vault as the thesis chose to build it: face mask with all markers, both "
        "nozzles, nine ring-lit cameras on two rigs",
        VaultRoom},
+      {"chessboard",
+       "10 x 7 squares of 30 mm for calibration, one wide camera with lens distortion",
+       ChessboardScene},
+      {"flat-field", "an even wall of radiance 1 W/(m2 sr) in front of one camera", FlatFieldScene},
   };
   return scenes;
 }

@@ -24,5 +24,8 @@ Scene SphereScene();
 Scene FaceScene();
 Scene BodyScene();
 Scene VaultRoom();
+// For measuring cameras.
+Scene ChessboardScene();
+Scene FlatFieldScene();
 
 }  // namespace retrolux

@@ -368,7 +368,8 @@ class Converter {
     for (const size_t child : nodes[index].children) CheckTree(nodes, child, depth + 1, seen);
   }
 
-  // {"K": [9 numbers, row by row], "width": .., "height": ..} as WriteGlb writes it.
+  // {"K": [9 numbers, row by row], "width": .., "height": .., "distortion": [5 numbers]} as
+  // WriteGlb writes it.
   static std::optional<CameraModel> OpenCvOf(const tinygltf::Value& extras) {
     if (!extras.IsObject() || !extras.Has("opencv")) return std::nullopt;
     const tinygltf::Value& opencv = extras.Get("opencv");
@@ -383,6 +384,10 @@ class Converter {
     camera.cx = k.Get(2).GetNumberAsDouble();
     camera.fy = k.Get(4).GetNumberAsDouble();
     camera.cy = k.Get(5).GetNumberAsDouble();
+    if (opencv.Has("distortion") && opencv.Get("distortion").ArrayLen() == 5) {
+      const auto at = [&](int i) { return opencv.Get("distortion").Get(i).GetNumberAsDouble(); };
+      camera.distortion = {at(0), at(1), at(2), at(3), at(4)};
+    }
     if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0.0) || !(camera.fy > 0.0))
       return std::nullopt;
     return camera;

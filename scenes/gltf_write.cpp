@@ -153,6 +153,11 @@ class GlbWriter {
       k.push_back(real(x));
     tinygltf::Value::Object opencv;
     opencv["K"] = tinygltf::Value(k);
+    if (!model.distortion.IsNone()) {
+      tinygltf::Value::Array distortion;
+      for (const double x : model.distortion.Coefficients()) distortion.push_back(real(x));
+      opencv["distortion"] = tinygltf::Value(distortion);
+    }
     opencv["width"] = tinygltf::Value(model.width);
     opencv["height"] = tinygltf::Value(model.height);
     tinygltf::Camera camera;

@@ -11,6 +11,24 @@ double DiodeRing::LambertExponent() const {
   return -std::numbers::ln2 / std::log(std::cos(RadFromDeg(half_angle_deg)));
 }
 
+LedType DiodeRing::Led() const {
+  return {peak_nm + peak_drift_nm_k * (junction_temperature_c - 25.0), fwhm_nm, spectrum_shape};
+}
+
+double DiodeRing::Intensity_w_sr() const {
+  return radiant_intensity_w_sr *
+         (1.0 + 0.01 * intensity_drift_percent_k * (junction_temperature_c - 25.0));
+}
+
+double Lens::PrincipalDistance_mm() const {
+  if (focus_distance_mm == 0.0) return focal_length_mm;
+  return focus_distance_mm * focal_length_mm / (focus_distance_mm - focal_length_mm);
+}
+
+double SensorSpec::DarkCurrentFactor() const {
+  return std::exp2((temperature_c - dark_reference_c) / dark_doubling_k);
+}
+
 Vec3d LedCentre(const CameraSpec& camera, int index) {
   const double angle = 2.0 * kPi * index / camera.ring->count;
   const Vec3d in_camera(camera.ring->radius_mm * std::cos(angle),
@@ -157,9 +175,9 @@ void CheckObject(const Scene& scene, const SceneObject& object, const std::files
 }
 
 void CheckSpectra(const Scene& scene, const std::filesystem::path& file) {
-  std::set<std::pair<double, double>> leds;
+  std::set<LedType> leds;
   for (const CameraSpec& camera : scene.cameras) {
-    if (camera.ring) leds.emplace(camera.ring->peak_nm, camera.ring->fwhm_nm);
+    if (camera.ring) leds.insert(camera.ring->Led());
   }
   const size_t spectra = leds.size() + 1;  // and the room's
   if (spectra > static_cast<size_t>(kMaxSpectra)) {
@@ -170,6 +188,24 @@ void CheckSpectra(const Scene& scene, const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+// Along the border, where a distortion that turns back does so first.
+void CheckPictureGetsLight(const CameraModel& model, const std::filesystem::path& file) {
+  constexpr int kSteps = 64;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double u = static_cast<double>(i) / kSteps * model.width - 0.5;
+    const double v = static_cast<double>(i) / kSteps * model.height - 0.5;
+    for (const Vec2d& px : {Vec2d(u, -0.5), Vec2d(u, model.height - 0.5), Vec2d(-0.5, v),
+                            Vec2d(model.width - 0.5, v)}) {
+      if (model.PlanePoint(px)) continue;
+      throw InputError::At(
+          file, fmt::format("camera '{}'", model.name),
+          fmt::format("a distortion that brings no light to pixel ({:.1f}, {:.1f})", px.x(),
+                      px.y()),
+          "coefficients k1, k2, p1, p2, k3 with which radii grow up to the corners of the picture");
+    }
+  }
+}
 
 void CheckScene(const Scene& scene, const std::filesystem::path& file) {
   UniqueNames objects(file, "objects"), cameras(file, "cameras"), markers(file, "markers"),
@@ -182,6 +218,7 @@ void CheckScene(const Scene& scene, const std::filesystem::path& file) {
   for (const CameraSpec& camera : scene.cameras) {
     cameras.Add(camera.model.name);
     CheckFileName(camera.model.name, file, "cameras");
+    CheckPictureGetsLight(camera.model, file);
     CheckSensor(camera.sensor, file, fmt::format("camera '{}'", camera.model.name));
     CheckRotation(camera.model.camera_from_world.rotation, file,
                   fmt::format("camera '{}'", camera.model.name));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenes/scene_json_sensor.h"
 #include "scenes/scene_json_values.h"
 
 namespace retrolux {
@@ -15,21 +16,23 @@ Lens ReadLens(JsonReader json) {
   lens.focal_length_mm = json.Number("focal_length_mm", 0.1, 10000.0, lens.focal_length_mm);
   lens.f_number = json.Number("f_number", 0.5, 256.0, lens.f_number);
   lens.transmission = json.Number("transmission", 0.001, 1.0, lens.transmission);
+  lens.focus_distance_mm = json.Number("focus_distance_mm", 0.0, 1e9, lens.focus_distance_mm);
+  if (lens.focus_distance_mm > 0.0 && lens.focus_distance_mm <= lens.focal_length_mm) {
+    json.Fail(fmt::format("focus_distance_mm {:g}", lens.focus_distance_mm),
+              fmt::format("more than the focal length of {:g} mm, or 0 for a pinhole",
+                          lens.focal_length_mm));
+  }
+  lens.stop_radius_mm = json.Number("stop_radius_mm", 0.0, 10000.0, lens.stop_radius_mm);
+  lens.stop_distance_mm = json.Number("stop_distance_mm", 0.0, 10000.0, lens.stop_distance_mm);
+  if (lens.stop_radius_mm > 0.0 && lens.stop_radius_mm < lens.ApertureRadius_mm()) {
+    json.Fail(fmt::format("stop_radius_mm {:g}", lens.stop_radius_mm),
+              fmt::format("at least the aperture's radius, {:g} mm, or 0 for no stop",
+                          lens.ApertureRadius_mm()));
+  }
+  lens.diffraction = json.Bool("diffraction", lens.diffraction);
+  lens.veiling_glare = json.Number("veiling_glare", 0.0, 0.5, lens.veiling_glare);
   json.Finish();
   return lens;
-}
-
-SensorSpec ReadSensor(JsonReader json) {
-  SensorSpec sensor;
-  sensor.quantum_efficiency = TableName(json, "quantum_efficiency", sensor.quantum_efficiency);
-  sensor.full_well_e = json.Number("full_well_e", 1.0, 1e9, sensor.full_well_e);
-  sensor.read_noise_e = json.Number("read_noise_e", 0.0, 1e6, sensor.read_noise_e);
-  sensor.dark_current_e_s = json.Number("dark_current_e_s", 0.0, 1e9, sensor.dark_current_e_s);
-  sensor.adc_bits = json.Integer("adc_bits", 1, 16, sensor.adc_bits);
-  sensor.offset_dn = json.Number("offset_dn", 0.0, 65535.0, sensor.offset_dn);
-  sensor.gain_dn_e = json.Number("gain_dn_e", 0.0, 65535.0, sensor.gain_dn_e);
-  json.Finish();
-  return sensor;
 }
 
 DiodeRing ReadRing(JsonReader json) {
@@ -42,6 +45,14 @@ DiodeRing ReadRing(JsonReader json) {
   ring.radiant_intensity_w_sr =
       json.Number("radiant_intensity_w_sr", 0.0, 1e6, ring.radiant_intensity_w_sr);
   ring.led_radius_mm = json.Number("led_radius_mm", 0.01, 1000.0, ring.led_radius_mm);
+  if (json.Has("spectrum_shape"))
+    ring.spectrum_shape = LedShapeOf(json.Choice("spectrum_shape", LedShapeNames()));
+  ring.junction_temperature_c =
+      json.Number("junction_temperature_c", -60.0, 150.0, ring.junction_temperature_c);
+  ring.peak_drift_nm_k = json.Number("peak_drift_nm_k", -2.0, 2.0, ring.peak_drift_nm_k);
+  // At most 0.75, so that some light is left at 150 C.
+  ring.intensity_drift_percent_k =
+      json.Number("intensity_drift_percent_k", -0.75, 0.75, ring.intensity_drift_percent_k);
   json.Finish();
   return ring;
 }
@@ -61,6 +72,12 @@ RigidTransform ReadCameraPose(JsonReader& json) {
     json.Fail("an 'up' along the line of sight, or no line of sight",
               "eye_mm apart from look_at_mm, and another direction for 'up'");
   return LookAt(eye, target, up);
+}
+
+// k1, k2, p1, p2, k3 (OpenCV).
+Distortion ReadDistortion(const JsonReader& json) {
+  const std::vector<double> d = json.Numbers(5);
+  return {d[0], d[1], d[2], d[3], d[4]};
 }
 
 // Either camera_matrix or field_of_view_deg.
@@ -103,16 +120,12 @@ CameraModel ReadCameraModel(JsonReader& json) {
   return model;
 }
 
-// Absent and null both mean none.
-bool HasSome(JsonReader& json, const std::string& key) {
-  return json.Has(key) && !json.Child(key).Raw().is_null();
-}
-
 }  // namespace
 
 CameraSpec ReadCamera(JsonReader json) {
   CameraSpec camera;
   camera.model = ReadCameraModel(json);
+  if (json.Has("distortion")) camera.model.distortion = ReadDistortion(json.Child("distortion"));
   if (json.Has("lens")) camera.lens = ReadLens(json.Child("lens"));
   if (HasSome(json, "filter")) camera.filter = ReadFilter(json.Child("filter"));
   if (json.Has("sensor")) camera.sensor = ReadSensor(json.Child("sensor"));

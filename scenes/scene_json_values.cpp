@@ -16,6 +16,10 @@ std::string Quoted(const std::string& text) {
   return '"' + text + '"';
 }
 
+bool HasSome(JsonReader& json, const std::string& key) {
+  return json.Has(key) && !json.Child(key).Raw().is_null();
+}
+
 std::string PathBelow(JsonReader& json, const std::string& key) {
   const JsonReader node = json.Child(key);
   const fs::path path = node.AsString();

@@ -5,6 +5,7 @@
 #include "core/hash.h"
 #include "scenes/gltf.h"
 #include "scenes/scene_json.h"
+#include "scenes/scene_json_sensor.h"
 
 namespace retrolux {
 
@@ -56,7 +57,31 @@ Json ToJson(const Mat3d& m) {
 Json ToJson(const Lens& lens) {
   return {{"focal_length_mm", lens.focal_length_mm},
           {"f_number", lens.f_number},
-          {"transmission", lens.transmission}};
+          {"transmission", lens.transmission},
+          {"focus_distance_mm", lens.focus_distance_mm},
+          {"stop_radius_mm", lens.stop_radius_mm},
+          {"stop_distance_mm", lens.stop_distance_mm},
+          {"diffraction", lens.diffraction},
+          {"veiling_glare", lens.veiling_glare}};
+}
+
+Json ToJson(const Blooming& blooming) {
+  return {{"drained", blooming.drained}};
+}
+
+Json ToJson(const Smear& smear) {
+  return {{"ratio", smear.ratio}, {"line_time_s", smear.line_time_s}};
+}
+
+Json ToJson(const DefectPixels& defects) {
+  return {{"hot_per_million", defects.hot_per_million},
+          {"hot_dark_current_e_s", defects.hot_dark_current_e_s},
+          {"dead_per_million", defects.dead_per_million}};
+}
+
+template <typename Option>
+Json OrNull(const std::optional<Option>& option) {
+  return option ? ToJson(*option) : Json();
 }
 
 Json ToJson(const SensorSpec& sensor) {
@@ -66,7 +91,17 @@ Json ToJson(const SensorSpec& sensor) {
           {"dark_current_e_s", sensor.dark_current_e_s},
           {"adc_bits", sensor.adc_bits},
           {"offset_dn", sensor.offset_dn},
-          {"gain_dn_e", sensor.gain_dn_e}};
+          {"gain_dn_e", sensor.gain_dn_e},
+          {"prnu", sensor.prnu},
+          {"dsnu_e", sensor.dsnu_e},
+          {"temperature_c", sensor.temperature_c},
+          {"dark_reference_c", sensor.dark_reference_c},
+          {"dark_doubling_k", sensor.dark_doubling_k},
+          {"serial", sensor.serial},
+          {"scan", ScanName(sensor.scan)},
+          {"blooming", OrNull(sensor.blooming)},
+          {"smear", OrNull(sensor.smear)},
+          {"defects", OrNull(sensor.defects)}};
 }
 
 Json ToJson(const DiodeRing& ring) {
@@ -76,7 +111,11 @@ Json ToJson(const DiodeRing& ring) {
           {"fwhm_nm", ring.fwhm_nm},
           {"half_angle_deg", ring.half_angle_deg},
           {"radiant_intensity_w_sr", ring.radiant_intensity_w_sr},
-          {"led_radius_mm", ring.led_radius_mm}};
+          {"led_radius_mm", ring.led_radius_mm},
+          {"spectrum_shape", LedShapeNames()[static_cast<size_t>(ring.spectrum_shape)]},
+          {"junction_temperature_c", ring.junction_temperature_c},
+          {"peak_drift_nm_k", ring.peak_drift_nm_k},
+          {"intensity_drift_percent_k", ring.intensity_drift_percent_k}};
 }
 
 Json ToJson(const CameraSpec& camera) {
@@ -84,6 +123,7 @@ Json ToJson(const CameraSpec& camera) {
   return {{"name", model.name},
           {"size", {model.width, model.height}},
           {"camera_matrix", {model.fx, 0, model.cx, 0, model.fy, model.cy, 0, 0, 1}},
+          {"distortion", model.distortion.Coefficients()},
           {"R", ToJson(model.camera_from_world.rotation)},
           {"t_mm", ToJson(model.camera_from_world.translation)},
           {"lens", ToJson(camera.lens)},

@@ -160,6 +160,8 @@ succeed "render with another seed" render oval --size 64x48 --spp 2 --seed 2 --n
 if cmp -s one/camera.exr seed/camera.exr; then bad "another seed, another picture" "the same"; else good "another seed, another picture"; fi
 succeed "render with another noise seed" render oval --size 64x48 --spp 2 --noise-seed 2 --out noise
 if cmp -s one/camera.png noise/camera.png; then bad "another noise seed, another noise" "the same"; else good "another noise seed, another noise"; fi
+differing=$(cmp -l one/camera.exr noise/camera.exr | wc -l)  # the seed in the header, one digit
+if [ "$differing" -eq 1 ]; then good "another noise seed, the same light"; else bad "another noise seed, the same light" "$differing bytes"; fi
 holds "truth.json names its conventions and all seven markers" one/truth.json \
   'json.schema === "retrolux/truth-1" && json.pixel_origin === "center" && json.cameras.camera.markers.length === 7'
 succeed "ids only" render oval --size 64x48 --ids-only --out ids
@@ -516,14 +518,58 @@ rm areas2/summary.json
 succeed "study areas again" "${areas[@]}" --out areas2
 grep -q '[0-9]* of [0-9]* tasks were done before' stdout.txt && good "nothing is done twice" || bad "nothing is done twice" "$(tail -2 stdout.txt)"
 same "study areas again: the same tables" areas1 areas2 areas.csv summary.json
+succeed "validate, a part" validate --only "centroids,filter" --out validated --json && cp stdout.txt result.json
+holds "validate: what was measured, expected, from where" result.json 'json.schema === "retrolux/validate-1" && json.failed === 0 && json.count === json.checks.length && json.checks.length > 8 && json.checks.every((c) => c.pass && c.source && c.independent_of && Math.abs(c.measured - c.expected) <= c.tolerance)'
+node -e 'const f = (n) => JSON.stringify(JSON.parse(require("fs").readFileSync(n))); process.exit(f("validated/validate.json") === f("result.json") ? 0 : 1)' && good "validate: the same on stdout and in the file" || bad "validate: the same on stdout and in the file" "they differ"
+[ -s validated/report.html ] && good "validate: a report" || bad "validate: a report" "none"
+refuse "validate: unknown checks" "no checks 'gravity'; expected one of white furnace" bad validate --only gravity --out bad
+succeed "scene export of a distorted camera" scene export chessboard --out chessboard
+succeed "render of it" render chessboard/scene.json --out distorted --size 64x48 --spp 1
+holds "distortion in the exported scene" chessboard/scene.json 'json.cameras[0].distortion[0] === -0.2'
+grep -q 'distortion_coefficients' distorted/cameras.yml && grep -q -- '-0.2' distorted/cameras.yml && good "distortion in cameras.yml" || bad "distortion in cameras.yml" "not there"
+sed 's/"distortion": \[[^]]*\]/"distortion": [-9, 0, 0, 0, 0]/' chessboard/scene.json >chessboard/folded.json
+refuse "a distortion that folds the picture" "folded\.json: camera 'camera': a distortion that brings no light to pixel.*expected coefficients" bad render chessboard/folded.json --out bad --ids-only
+sed 's/"focus_distance_mm": [0-9.]*/"focus_distance_mm": 20/' chessboard/scene.json >chessboard/near.json
+refuse "a focus within the focal length" 'near\.json: /cameras/0/lens: found focus_distance_mm 20; expected more than the focal length' bad render chessboard/near.json --out bad --ids-only
 refuse "study areas: bad --size" '--size 640by480: expected WIDTHxHEIGHT' bad study areas --size 640by480 --out bad
 refuse "study areas: --size of nothing" '--size 0x0: expected' bad study areas --size 0x0 --out bad
 refuse "study areas: --triangles 1000" '--triangles 1000; expected one of.*1280.*81920' bad study areas --triangles 1000 --out bad
 refuse "study areas: unknown rule" '--visibility.*magic.*ids,rays,triangles' bad study areas --visibility magic --out bad
 refuse "study areas without --out" '--out.*required' bad study areas
 
+# ------------------------------------------------------------------------------------ materials and the goniometer
+succeed "material list" --json material list
+cp stdout.txt result.json
+holds "material list: the library" result.json 'json.materials.some((m) => m.name === "retro_prismatic" && m.type === "retro_table")'
+succeed "material show" material show retro_bead_table
+grep -q ra_bead_iso20471.csv stdout.txt && good "material show: its table" || bad "material show: its table" "$(head -c 200 stdout.txt)"
+printf 'observation_deg,entrance_deg,ra_cd_lx_m2\n0.2,5,330\n0.33,5,250\n1,5,25\n1.5,5,10\n' >table.csv
+succeed "material fit" --json material fit table.csv --lobes 1
+cp stdout.txt result.json
+# The fit of one lobe made with another program: width 0.0054, albedo 0.147, rms 0.13.
+holds "material fit: the lobe" result.json 'Math.abs(json.lobes[0].roughness - 0.0054) < 1e-4 && Math.abs(json.rms_ln_ra - 0.13) < 0.006 && json.residuals_ln_ra.length === 4'
+refuse "material fit: too many lobes" '3 lobes.*6 parameters, the table 4 points; expected' bad material fit table.csv --lobes 3
+refuse "material fit: no table" 'absent.csv' bad material fit absent.csv
+printf 'wavelength_nm,reflectance\n400,0.5\n' >spectrum.csv
+refuse "material fit: a table of something else" 'spectrum.csv: header: wavelength_nm.*expected observation_deg' bad material fit spectrum.csv
+for threads in 1 2; do
+  succeed "goniometer, $threads threads" goniometer retro_high_gain --observation 0.2,1 --entrance 5,40 --out "gonio$threads" --threads $threads
+done
+same "goniometer: 1 and 2 threads, identical table" gonio1 gonio2 goniometer.csv
+# 500 cd/(lx m2) at 0.2 / 5 degrees is what the sheeting is defined by: 2 %.
+awk -F, 'NR == 2 {exit !($6 > 490 && $6 < 510)}' gonio1/goniometer.csv &&
+  good "goniometer: R_A" || bad "goniometer: R_A" "$(head -2 gonio1/goniometer.csv | tr '\n' ' ')"
+refuse "goniometer: unknown material" "material 'felt' is not in the library; expected one of" bad goniometer felt --out bad
+refuse "goniometer: too oblique" 'entrance angle 89 degrees; expected -85 to 85' bad goniometer mask --entrance 89 --out bad
+
+# -------------------------------------------------------------------------------------------------------------- bench
+succeed "bench" --json bench --seconds 0.01
+cp stdout.txt bench.json
+holds "bench: a rate beside each limit" bench.json 'json.schema === "retrolux/bench-1" && json.rates.length === 14 && json.rates.every((r) => r.per_second > 0 && (r.limit === undefined || (r.limit_per_second > 0 && r.share > 0)))'
+refuse "bench: no time" 'seconds.*0' bad bench --seconds 0
+
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault"; do
+for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

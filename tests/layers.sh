@@ -28,13 +28,14 @@ forbid classifier 'materials/|scenes/|renderer/|analysis/|cli/|tests/'
 forbid analysis   'cli/|tests/'
 forbid cli        'tests/'
 
-only 'embree3/'     renderer/ray_scene.cpp
+only 'embree3/'     renderer/ray_scene.cpp renderer/bare_embree.cpp
 only 'OpenImageIO/' core/image_file.cpp
 only 'tiny_gltf'    scenes/gltf_model.cpp scenes/gltf_write.cpp
 only 'tbb/'         core/parallel.cpp
 only 'assimp/'      scenes/mesh_import.cpp
 only 'CGAL/'        scenes/mesh_reconstruct.cpp
 only 'nlopt'        analysis/placement_refinement.cpp
+only 'unsupported/Eigen' analysis/lobe_fit.cpp
 
 [ $bad -eq 0 ] && echo "layers: every include points downwards"
 exit $bad

@@ -11,23 +11,17 @@
 
 #include "core/atomic_file.h"
 #include "core/data_path.h"
-#include "core/rng.h"
-#include "core/sampling.h"
+#include "core/hash.h"
 #include "materials/directional_albedo.h"
 #include "materials/entrance_weight.h"
 #include "materials/filter.h"
 #include "materials/material_library.h"
+#include "tests/bsdf_testing.h"
 #include "tests/message_of.h"
 #include "tests/statistics.h"
 
 namespace retrolux {
 namespace {
-
-using BsdfPtr = std::shared_ptr<const Bsdf>;
-
-BsdfPtr FromJson(const std::string& text) {
-  return MakeBsdf(JsonReader::FromText(text, "m.json"));
-}
 
 struct NamedBsdf {
   std::string name;
@@ -50,19 +44,19 @@ std::vector<NamedBsdf> AllMaterials() {
           "lobes": [{"roughness": 0.5, "albedo": 1.0}]})",
       R"({"type": "retroreflector", "diffuse_reflectance": 0.2, "ior": 1.6, "cover_roughness": 0.4,
           "entrance_weight": "materials/data/entrance_weight_iso20471.csv",
-          "lobes": [{"roughness": 0.02, "albedo": 0.3}, {"roughness": 0.2, "albedo": 0.2}]})"};
+          "lobes": [{"roughness": 0.02, "albedo": 0.3}, {"roughness": 0.2, "albedo": 0.2}]})",
+      R"({"type": "retroreflector", "diffuse_reflectance": 0.0, "ior": 1.0,
+          "lobes": [{"roughness": 0.003, "albedo": 0.6, "distribution": "beckmann"},
+                    {"roughness": 0.4, "albedo": 0.4, "distribution": "beckmann"}]})",
+      R"({"type": "retro_table", "diffuse_reflectance": 0.05, "ior": 1.0,
+          "table": "materials/data/ra_prismatic_ldp3970.csv"})",
+      R"({"type": "conductor", "reflectance": 1.0, "roughness": 1.0})",
+      R"({"type": "conductor", "n": 2.8, "k": 8.5, "roughness": 0.02})",
+      R"({"type": "conductor", "n": 0.2, "k": 3.0, "roughness": 0.5})",
+      R"({"type": "rough_diffuse", "reflectance": 1.0, "roughness": 1.0})",
+      R"({"type": "rough_diffuse", "reflectance": 0.3, "roughness": 0.0})"};
   for (const char* text : variations) all.push_back({text, FromJson(text)});
   return all;
-}
-
-// Four different wavelengths, so that one that is taken for another shows.
-Spectral AnyWavelengths() {
-  return {450.0f, 620.0f, 880.0f, 1050.0f};
-}
-
-Vec3f AtAngle(double theta_deg, double phi_deg = 0.0) {
-  const double t = RadFromDeg(theta_deg), p = RadFromDeg(phi_deg);
-  return Vec3d(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)).cast<float>();
 }
 
 Vec3f MirroredAboutNormal(const Vec3f& w) {
@@ -231,7 +225,7 @@ TEST(Bsdf, SamplesFollowTheirDensity) {
       const Vec3f wo = AtAngle(theta_deg, 35.0);
       const DirectionCells cells(wo);
       std::vector<double> observed(cells.Count(), 0.0);
-      KeyedRng rng(static_cast<uint64_t>(theta_deg) + 1);
+      KeyedRng rng(CombineKeys(HashBytes(material.name), static_cast<uint64_t>(theta_deg)));
       for (int i = 0; i < kSamples; ++i) {
         const float lobe = rng.NextFloat();
         const Vec2f u(rng.NextFloat(), rng.NextFloat());
@@ -339,34 +333,6 @@ TEST(Bsdf, Reciprocal) {
       }
     }
   }
-}
-
-// Share of the light to wo that is reflected: the mean of the weights over a stratified square of
-// random numbers, with its standard error (an upper bound, because of the stratification), for the
-// third wavelength.
-struct Albedo {
-  double mean, standard_error, least_weight;
-};
-Albedo DirectionalAlbedoOf(const Bsdf& bsdf, double theta_deg, int side, uint64_t key) {
-  const Vec3f wo = AtAngle(theta_deg, 35.0);
-  const Spectral nm = AnyWavelengths();
-  KeyedRng rng(key);
-  double sum = 0.0, sum2 = 0.0, least = 0.0;
-  for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) {
-      const float lobe = rng.NextFloat();
-      const Vec2f jitter(rng.NextFloat(), rng.NextFloat());
-      const Vec2f u =
-          (Vec2f(static_cast<float>(i), static_cast<float>(j)) + jitter) / static_cast<float>(side);
-      const auto sample = bsdf.Sample(wo, lobe, u.cwiseMin(0x1.fffffep-1f), nm);
-      const double weight = sample ? static_cast<double>(sample->weight[2]) : 0.0;
-      sum += weight;
-      sum2 += weight * weight;
-      least = std::min(least, weight);
-    }
-  }
-  const double n = static_cast<double>(side) * side, mean = sum / n;
-  return {mean, std::sqrt(std::max(0.0, sum2 / n - mean * mean) / n), least};
 }
 
 TEST(Bsdf, NeverMoreLightThanArrives) {
@@ -478,11 +444,6 @@ TEST(Retroreflector, LobeReflectsWhatTheMicrofacetsDo) {
   }
 }
 
-// f cos cos, the coefficient of retro-reflection in 1/sr.
-double CoefficientOfRetroReflection(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
-  return static_cast<double>(bsdf.Evaluate(wo, wi, AnyWavelengths()).f_cos[0] * wo.z());
-}
-
 constexpr const char* kLibraryLobes =
     R"([{"roughness": 0.0043, "albedo": 0.109}, {"roughness": 0.0255, "albedo": 0.075}])";
 
@@ -576,7 +537,7 @@ TEST(Spectrum, LedHasUnitIntegralAndItsWidth) {
   // samples 1 nm apart costs at most h^2 / 8 times its curvature, 8 ln 2 / w^2 of the peak: 1e-3
   // for w = 30 nm at most.
   for (const auto& [peak_nm, fwhm_nm] : {std::pair{880.0, 80.0}, {850.0, 30.0}, {660.5, 20.0}}) {
-    const Spectrum led = LedSpectrum(peak_nm, fwhm_nm);
+    const Spectrum led = LedSpectrum({peak_nm, fwhm_nm});
     EXPECT_NEAR(led.Integral(), 1.0, 1e-6);
     const auto at = [&](double nm) { return static_cast<double>(led.At(static_cast<float>(nm))); };
     EXPECT_NEAR(at(peak_nm - 0.5 * fwhm_nm) / at(peak_nm), 0.5, 2e-3) << fwhm_nm;
@@ -636,7 +597,7 @@ TEST(BsdfFactory, ErrorsNamePlaceFoundAndExpected) {
   const auto error = [](const std::string& text) { return MessageOf([&] { FromJson(text); }); };
   EXPECT_EQ(error(R"({"type": "velvet"})"),
             "m.json: /type: found string \"velvet\"; expected one of absorber, coated_diffuse, "
-            "diffuse, retroreflector");
+            "conductor, diffuse, retro_table, retroreflector, rough_diffuse");
   EXPECT_EQ(error(R"({"reflectance": 0.5})"), "m.json: /: found no key 'type'; expected 'type'");
   EXPECT_EQ(error(R"({"type": "diffuse", "reflectanse": 0.5})"),
             "m.json: /: found the unknown key 'reflectanse'; expected 'reflectance', perhaps");

@@ -1,4 +1,4 @@
-// The renderer: sensor, lights, paths, ids, truth of markers, exposure, rays. What closed forms say
+// The renderer: lights, paths, ids, truth of markers, exposure, rays. What closed forms say
 // about whole pictures is in analysis/checks_*.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include "renderer/film.h"
 #include "renderer/id_pass.h"
 #include "renderer/marker_truth.h"
-#include "renderer/sensor.h"
 #include "scenes/built_in.h"
 #include "scenes/mesh_shapes.h"
 #include "tests/message_of.h"
@@ -21,172 +20,14 @@
 namespace retrolux {
 namespace {
 
-struct Moments {
-  double mean = 0.0, variance = 0.0;  // of the values, not of their mean
-  size_t count = 0;
-  double StandardError() const { return std::sqrt(variance / static_cast<double>(count)); }
-};
-template <typename Values>
-Moments MomentsOf(const Values& values) {
-  Moments m;
-  m.count = values.size();
-  for (const auto v : values) m.mean += static_cast<double>(v);
-  m.mean /= static_cast<double>(m.count);
-  for (const auto v : values) m.variance += std::pow(static_cast<double>(v) - m.mean, 2);
-  m.variance /= static_cast<double>(m.count - 1);
-  return m;
-}
+using statistics::Moments;
+using statistics::MomentsOf;
+
 // Whether two means are equal, as a probability.
 double SameMeanPValue(const Moments& a, const Moments& b) {
   const double error = std::hypot(a.StandardError(), b.StandardError());
   return error > 0.0 ? statistics::NormalPValue((a.mean - b.mean) / error)
                      : (a.mean == b.mean ? 1.0 : 0.0);
-}
-
-// --- random numbers of the sensor ---
-
-TEST(Poisson, CountsFollowTheProbabilities) {
-  // Cells of one or more counts that expect 20 or more, by P(k) = mean^k exp(-mean) / k!. Means on
-  // both sides of the change of method at 10. Significance 1 % for all.
-  constexpr int kSamples = 200000;
-  const double means[] = {0.3, 5.0, 9.99, 10.01, 50.0, 1000.0};
-  for (const double mean : means) {
-    std::vector<double> expected = {0.0};
-    std::vector<size_t> cell_of;  // of a count
-    for (int k = 0; k < mean + 12.0 * std::sqrt(mean) + 12.0; ++k) {
-      if (expected.back() >= 20.0) expected.push_back(0.0);
-      expected.back() += kSamples * std::exp(k * std::log(mean) - mean - std::lgamma(k + 1.0));
-      cell_of.push_back(expected.size() - 1);
-    }
-    while (expected.back() < 20.0) {  // the upper tail belongs to the last cell
-      expected[expected.size() - 2] += expected.back();
-      expected.pop_back();
-    }
-    std::vector<double> observed(expected.size(), 0.0);
-    KeyedRng rng(11);
-    for (int i = 0; i < kSamples; ++i) {
-      const double k = SamplePoisson(mean, rng);
-      ASSERT_EQ(k, std::floor(k));
-      ASSERT_GE(k, 0.0);
-      const auto index = std::min(static_cast<size_t>(k), cell_of.size() - 1);
-      observed[std::min(cell_of[index], expected.size() - 1)] += 1.0;
-    }
-    EXPECT_GT(statistics::ChiSquarePValue(observed, expected),
-              statistics::Sidak(0.01, std::size(means)))
-        << mean;
-  }
-  KeyedRng rng(1);
-  EXPECT_EQ(SamplePoisson(0.0, rng), 0.0);
-}
-
-TEST(Poisson, MeanAndVarianceOfLargeSignals) {
-  // Both are the mean. The standard error of the variance of n numbers is sqrt((m4 - var^2) / n)
-  // with m4 = mean + 3 mean^2. Significance 1 %.
-  constexpr int kSamples = 200000;
-  for (const double mean : {20000.0, 1e7}) {
-    KeyedRng rng(12);
-    std::vector<double> counts(kSamples);
-    for (double& k : counts) k = SamplePoisson(mean, rng);
-    const Moments m = MomentsOf(counts);
-    EXPECT_GT(statistics::NormalPValue((m.mean - mean) / std::sqrt(mean / kSamples)),
-              statistics::Sidak(0.01, 4))
-        << mean;
-    EXPECT_GT(statistics::NormalPValue((m.variance - mean) /
-                                       std::sqrt((mean + 2.0 * mean * mean) / kSamples)),
-              statistics::Sidak(0.01, 4))
-        << mean;
-  }
-}
-
-TEST(Normal, FollowsItsDistribution) {
-  // The distribution function of normal numbers is uniform on [0, 1]: 200 equal cells; significance
-  // 1 %.
-  constexpr int kSamples = 200000, kCells = 200;
-  std::vector<double> counts(kCells, 0.0);
-  KeyedRng rng(13);
-  for (int i = 0; i < kSamples; ++i) {
-    const double below = 0.5 * std::erfc(-SampleNormal(rng) / std::numbers::sqrt2);
-    counts[std::min<size_t>(kCells - 1, static_cast<size_t>(below * kCells))] += 1.0;
-  }
-  EXPECT_GT(
-      statistics::ChiSquarePValue(counts, std::vector<double>(kCells, 1.0 * kSamples / kCells)),
-      0.01);
-}
-
-// --- sensor ---
-
-SensorSpec QuietSensor() {
-  SensorSpec sensor;
-  sensor.read_noise_e = 0.0;
-  sensor.dark_current_e_s = 0.0;
-  return sensor;
-}
-
-TEST(Sensor, ClipsAtTheFullWell) {
-  // 10^6 e- on pixels that hold 30,000: with 0.005 DN/e- all read 3 + 150 DN, far below the 255 of
-  // the ADC.
-  SensorSpec sensor = QuietSensor();
-  sensor.gain_dn_e = 0.005;
-  EXPECT_THAT(ExposeSensor(FloatPlane(32, 32, 1e6f), sensor, 1e-3, 1).dn.data, testing::Each(153));
-}
-
-TEST(Sensor, OffsetAndRangeOfTheAdc) {
-  SensorSpec sensor = QuietSensor();
-  EXPECT_THAT(ExposeSensor(FloatPlane(32, 32), sensor, 1e-3, 1).dn.data, testing::Each(3));
-  // By default a full well is the largest number, at any number of bits.
-  for (const int bits : {8, 10, 12, 16}) {
-    sensor.adc_bits = bits;
-    sensor.gain_dn_e = 0.0;
-    const DigitalImage image = ExposeSensor(FloatPlane(8, 8, 1e6f), sensor, 1e-3, 1);
-    EXPECT_EQ(image.bits, bits);
-    EXPECT_THAT(image.dn.data, testing::Each((1 << bits) - 1));
-    EXPECT_NEAR(sensor.offset_dn + GainDnPerElectron(sensor) * sensor.full_well_e, (1 << bits) - 1,
-                1e-9);
-    // And with more gain the ADC clips before the well is full.
-    sensor.gain_dn_e = 10.0;
-    EXPECT_THAT(ExposeSensor(FloatPlane(8, 8, 2e4f), sensor, 1e-3, 1).dn.data,
-                testing::Each((1 << bits) - 1));
-  }
-  // Read noise about zero without an offset: half of the numbers would be negative and read 0.
-  // 65,536 pixels, of which the share that reads 0 has P(noise < 0.5 DN) = 0.5 + 0.0099 and a
-  // standard error of 0.002.
-  SensorSpec no_offset;
-  no_offset.offset_dn = 0.0;
-  no_offset.gain_dn_e = 1.0;
-  no_offset.dark_current_e_s = 0.0;
-  const DigitalImage dark = ExposeSensor(FloatPlane(256, 256), no_offset, 1e-3, 1);
-  const auto zeros = static_cast<double>(std::count(dark.dn.data.begin(), dark.dn.data.end(), 0));
-  EXPECT_NEAR(zeros / 65536.0, 0.5 * std::erfc(-0.5 / 20.0 / std::numbers::sqrt2), 4.0 * 0.002);
-}
-
-TEST(Sensor, DarkCurrentGrowsWithTheExposure) {
-  // 50,000 e-/s over 0.1 s: 5000 e- on top of a signal of 1000. At 12 bit and 0.5 DN/e- the mean is
-  // 50 + 3000 DN, the variance 0.25 (6000 + 400) + 1/12 DN^2. Significance 1 % for both.
-  SensorSpec sensor;
-  sensor.adc_bits = 12;
-  sensor.offset_dn = 50.0;
-  sensor.gain_dn_e = 0.5;
-  sensor.dark_current_e_s = 50000.0;
-  const Moments m = MomentsOf(ExposeSensor(FloatPlane(256, 256, 1000.0f), sensor, 0.1, 5).dn.data);
-  const double variance = 0.25 * 6400.0 + 1.0 / 12.0, n = 65536.0;
-  EXPECT_GT(statistics::NormalPValue((m.mean - 3050.0) / std::sqrt(variance / n)),
-            statistics::Sidak(0.01, 2));
-  EXPECT_GT(statistics::NormalPValue((m.variance - variance) / (variance * std::sqrt(2.0 / n))),
-            statistics::Sidak(0.01, 2));
-}
-
-TEST(Sensor, NoiseBelongsToItsKey) {
-  const FloatPlane light(64, 64, 5000.0f);
-  const DigitalImage a = ExposeSensor(light, SensorSpec{}, 1e-3, 1),
-                     b = ExposeSensor(light, SensorSpec{}, 1e-3, 2);
-  EXPECT_EQ(a.dn.data, ExposeSensor(light, SensorSpec{}, 1e-3, 1).dn.data);
-  EXPECT_NE(a.dn.data, b.dn.data);
-  // Independent: the correlation of 4096 pairs is zero within 4 / sqrt(4096).
-  const Moments ma = MomentsOf(a.dn.data), mb = MomentsOf(b.dn.data);
-  double product = 0.0;
-  for (size_t i = 0; i < a.dn.data.size(); ++i)
-    product += (a.dn.data[i] - ma.mean) * (b.dn.data[i] - mb.mean);
-  EXPECT_LT(std::abs(product / 4096.0 / std::sqrt(ma.variance * mb.variance)), 4.0 / 64.0);
 }
 
 // --- lights ---
@@ -331,7 +172,7 @@ TEST(Lights, RadianceOfAnLedIsItsIntensityOverItsArea) {
   const auto radiance = [&](const Vec3f& from) {
     PixelSampler sampler(24, 0);
     return tracer
-        .TracePath(from, (led - from).normalized(), response.SampleWavelengths(0.5f), sampler)
+        .TracePath(from, (led - from).normalized(), response.SampleWavelengths(0.5f, 1.0f), sampler)
         .radiance;
   };
   const double on_axis = 0.05 / (kPi * 2.5e-3 * 2.5e-3);
@@ -414,11 +255,12 @@ TEST(CameraResponse, SampledWavelengthsGiveTheIntegral) {
     for (size_t k = 0; k < lights.Spectra().size(); ++k) {
       double sum = 0.0;
       for (int i = 0; i < kStrata; ++i) {
-        const Spectral nm = response.SampleWavelengths((static_cast<float>(i) + 0.5f) / kStrata);
-        sum += static_cast<double>(response.WeightsAt(nm, static_cast<float>(cosine))
+        const Spectral nm = response.SampleWavelengths((static_cast<float>(i) + 0.5f) / kStrata,
+                                                       static_cast<float>(cosine));
+        sum += static_cast<double>(response.WeightsAt(nm, static_cast<float>(cosine), 0.9f)
                                        .electrons[static_cast<Eigen::Index>(k)]);
       }
-      const double expected = response.ExpectedElectrons(static_cast<int>(k), cosine);
+      const double expected = response.ExpectedElectrons(static_cast<int>(k), cosine, 0.9);
       EXPECT_GT(expected, 0.0);
       EXPECT_NEAR(sum / kStrata, expected, 2e-3 * expected)
           << "spectrum " << k << " at " << theta_deg;
@@ -446,7 +288,7 @@ TwoEstimates CompareWithScattering(const Scene& scene, int group, uint32_t sampl
   const auto hit = rays.Intersect(origin, direction);
   const Bsdf& bsdf = *scene.materials.at(scene.objects[hit->body].material).bsdf;
   const Frame frame(hit->shading_normal);
-  const Spectral nm = response.SampleWavelengths(0.5f);
+  const Spectral nm = response.SampleWavelengths(0.5f, 1.0f);
   const int k = lights.SpectrumOf(group);
   std::vector<float> full, scattered;
   KeyedRng rng(31);

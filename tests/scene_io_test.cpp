@@ -12,6 +12,7 @@
 #include "scenes/built_in.h"
 #include "scenes/gltf.h"
 #include "scenes/scene_json.h"
+#include "scenes/scene_json_sensor.h"
 
 namespace retrolux {
 namespace {
@@ -83,8 +84,25 @@ Scene TestScene() {
                                               LookAt({1265, 600, 1109}, {1, 2, 3}, {1, 0, 0}));
   camera.lens = {25.0, 1.0 / 3.0 + 2.0, 0.9};
   camera.filter = DichroicFilter{850.0, 40.0, 0.8, 3.0, 2.1};
-  camera.ring = DiodeRing{12, 25.5, 850.0, 42.0, 10.0, 0.125, 1.5};
-  camera.sensor = {"materials/data/qe_interline_ccd.csv", 20000.0, 9.5, 3.0, 12, 16.0, 0.2};
+  camera.ring = DiodeRing{12, 25.5, 850.0, 42.0, 10.0, 0.125, 1.5, 60.0, 0.25, -0.4};
+  camera.ring->spectrum_shape = LedShape::kOhno;
+  camera.sensor.quantum_efficiency = "materials/data/qe_nir_cmos.csv";
+  camera.sensor.full_well_e = 20000.0;
+  camera.sensor.read_noise_e = 9.5;
+  camera.sensor.dark_current_e_s = 3.0;
+  camera.sensor.adc_bits = 12;
+  camera.sensor.offset_dn = 16.0;
+  camera.sensor.gain_dn_e = 0.2;
+  camera.sensor.prnu = 0.02;
+  camera.sensor.dsnu_e = 5.5;
+  camera.sensor.temperature_c = 41.5;
+  camera.sensor.dark_reference_c = 20.0;
+  camera.sensor.dark_doubling_k = 7.0;
+  camera.sensor.serial = "part 7";
+  camera.sensor.scan = Scan::kInterlaced;
+  camera.sensor.blooming = Blooming{0.9};
+  camera.sensor.smear = Smear{2e-5, 64e-6};
+  camera.sensor.defects = DefectPixels{12.0, 3456.0, 7.0};
   scene.cameras.push_back(camera);
   CameraSpec plain;
   plain.model = CameraModel::FromFieldOfView("smooth", 640, 480, 30.0, 20.0,
@@ -113,8 +131,17 @@ void ExpectEqual(const CameraSpec& a, const CameraSpec& b) {
   EXPECT_EQ(lens(a.lens), lens(b.lens));
   const auto sensor = [](const SensorSpec& s) {
     return std::tie(s.quantum_efficiency, s.full_well_e, s.read_noise_e, s.dark_current_e_s,
-                    s.adc_bits, s.offset_dn, s.gain_dn_e);
+                    s.adc_bits, s.offset_dn, s.gain_dn_e, s.prnu, s.dsnu_e, s.temperature_c,
+                    s.dark_reference_c, s.dark_doubling_k, s.serial, s.scan);
   };
+  const auto options = [](const SensorSpec& s) {
+    const Blooming blooming = s.blooming.value_or(Blooming{-1.0});
+    const Smear smear = s.smear.value_or(Smear{-1.0});
+    const DefectPixels defects = s.defects.value_or(DefectPixels{-1.0});
+    return std::tuple(blooming.drained, smear.ratio, smear.line_time_s, defects.hot_per_million,
+                      defects.hot_dark_current_e_s, defects.dead_per_million);
+  };
+  EXPECT_EQ(options(a.sensor), options(b.sensor));
   EXPECT_EQ(sensor(a.sensor), sensor(b.sensor));
   ASSERT_EQ(a.filter.has_value(), b.filter.has_value());
   EXPECT_EQ(ToJson(a.filter.value_or(DichroicFilter{})),
@@ -122,7 +149,8 @@ void ExpectEqual(const CameraSpec& a, const CameraSpec& b) {
   ASSERT_EQ(a.ring.has_value(), b.ring.has_value());
   const auto ring = [](const DiodeRing& r) {
     return std::tie(r.count, r.radius_mm, r.peak_nm, r.fwhm_nm, r.half_angle_deg,
-                    r.radiant_intensity_w_sr, r.led_radius_mm);
+                    r.radiant_intensity_w_sr, r.led_radius_mm, r.spectrum_shape,
+                    r.junction_temperature_c, r.peak_drift_nm_k, r.intensity_drift_percent_k);
   };
   const DiodeRing ring_a = a.ring.value_or(DiodeRing{}), ring_b = b.ring.value_or(DiodeRing{});
   EXPECT_EQ(ring(ring_a), ring(ring_b));
@@ -260,7 +288,7 @@ TEST_F(SceneJson, SchemaStatesTheDefaults) {
   const auto defaults = [&](const std::string& part) {
     json values = json::object();
     for (const auto& [key, property] : schema["$defs"][part]["properties"].items())
-      values[key] = property["default"];
+      if (property.contains("default")) values[key] = property["default"];
     return values;
   };
   json scene = Smallest();
@@ -271,6 +299,54 @@ TEST_F(SceneJson, SchemaStatesTheDefaults) {
   expected.filter = DichroicFilter{};
   expected.ring = DiodeRing{};
   ExpectEqual(Read(scene).cameras[0], expected);
+}
+
+TEST_F(SceneJson, SensorOptionsHaveTheDefaultsOfTheSchema) {
+  const json schema = json::parse(
+      ReadTextFile(fs::path(RETROLUX_SOURCE_DATA) / "scenes/schema/scene-1.schema.json"));
+  json scene = Smallest();
+  for (const char* option : {"blooming", "smear", "defects"}) {
+    for (const auto& [key, property] : schema["$defs"][option]["properties"].items())
+      scene["cameras"][0]["sensor"][option][key] = property["default"];
+  }
+  CameraSpec expected = Read(Smallest()).cameras[0];
+  expected.sensor.blooming = Blooming{};
+  expected.sensor.smear = Smear{};
+  expected.sensor.defects = DefectPixels{};
+  ExpectEqual(Read(scene).cameras[0], expected);
+  scene["cameras"][0]["sensor"] = {
+      {"blooming", json::object()}, {"smear", json::object()}, {"defects", json::object()}};
+  ExpectEqual(Read(scene).cameras[0], expected);
+}
+
+TEST_F(SceneJson, SensorsBeginWithAPresetIfTheySaySo) {
+  for (const std::string& name : SensorPresetNames()) {
+    SCOPED_TRACE(name);
+    json scene = Smallest();
+    scene["cameras"][0]["sensor"] = {{"preset", name}};
+    CameraSpec expected = Read(Smallest()).cameras[0];
+    expected.sensor = SensorPreset(name);
+    const Scene read = Read(scene);
+    ExpectEqual(read.cameras[0], expected);
+    // What stands beside it comes first; null takes an option away.
+    scene["cameras"][0]["sensor"] = {{"preset", name}, {"adc_bits", 10}, {"smear", nullptr}};
+    expected.sensor.adc_bits = 10;
+    expected.sensor.smear.reset();
+    ExpectEqual(Read(scene).cameras[0], expected);
+    // An exported scene holds the values themselves.
+    const TemporaryFolder folder;
+    ExportScene(read, folder.Path());
+    EXPECT_EQ(SceneHash(LoadScene(folder.Path().string())), SceneHash(read));
+  }
+  EXPECT_EQ(Wrong("/cameras/0/sensor", json{{"preset", "icx414"}}),
+            "scene.json: /cameras/0/sensor/preset: found string \"icx414\"; expected one of "
+            "icx414al, icx429al, imx900");
+  EXPECT_EQ(Wrong("/cameras/0/sensor", json{{"smear", {{"ratios", 1}}}}),
+            "scene.json: /cameras/0/sensor/smear: found the unknown key 'ratios'; expected "
+            "'ratio', perhaps");
+  EXPECT_EQ(Wrong("/cameras/0/sensor", json{{"scan", "both"}}),
+            "scene.json: /cameras/0/sensor/scan: found string \"both\"; expected one of "
+            "progressive, interlaced");
 }
 
 TEST_F(SceneJson, EulerAnglesTurnAboutXFirst) {

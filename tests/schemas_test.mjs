@@ -230,6 +230,8 @@ function checkOutputs(schemas, work) {
   const small = ['--triangles', '1280', '--sample-area', '4', '--size', '160x120'];
   const areas = run(work, 'study', 'areas', ...small, '--json', '--out', 'areas');
   if (areas !== null) checkText(schemas, 'standard output of study areas --json', areas);
+  const checks = run(work, 'validate', '--only', 'filter', '--json', '--out', 'validated');
+  if (checks !== null) checkText(schemas, 'standard output of validate --json', checks);
   checkFolder(schemas, work, 'out');
 }
 
@@ -320,7 +322,12 @@ function checkMaterials(schemas) {
 
 const schemas = loadSchemas();
 checkMaterials(schemas);
-for (const file of ['scenes/data/markers.json', 'materials/data/library.json'])
+const LIBRARIES = [
+  'scenes/data/markers.json',
+  'scenes/data/sensors.json',
+  'materials/data/library.json',
+];
+for (const file of LIBRARIES)
   checkText(schemas, file, withoutComments(fs.readFileSync(path.join(ROOT, file), 'utf8')));
 checkScenarios(schemas);
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'retrolux_schemas.'));

@@ -66,4 +66,20 @@ inline double Sidak(double significance, double tests) {
   return 1.0 - std::pow(1.0 - significance, 1.0 / tests);
 }
 
+struct Moments {
+  double mean = 0.0, variance = 0.0;  // of the values, not of their mean
+  size_t count = 0;
+  double StandardError() const { return std::sqrt(variance / static_cast<double>(count)); }
+};
+template <typename Values>
+Moments MomentsOf(const Values& values) {
+  Moments m;
+  m.count = values.size();
+  for (const auto v : values) m.mean += static_cast<double>(v);
+  m.mean /= static_cast<double>(m.count);
+  for (const auto v : values) m.variance += std::pow(static_cast<double>(v) - m.mean, 2);
+  m.variance /= static_cast<double>(m.count - 1);
+  return m;
+}
+
 }  // namespace retrolux::statistics
