@@ -75,9 +75,7 @@ ComposedCamera::ComposedCamera(const Scene& scene, const RayScene& rays, const C
       response_(camera, lights_.Spectra(), retrolux::ExposureSeconds(scene, camera)),
       lens_(camera),
       scatter_(camera, response_.MeanWavelength_nm()),
-      spread_px_(camera.lens.diffraction
-                     ? AiryDisc(camera, response_.MeanWavelength_nm()).CoreRadius_px()
-                     : 0.0),
+      spread_px_(PixelSpread(camera, response_.MeanWavelength_nm()).Radius_px()),
       options_(options),
       traced_background_(RenderBackground(scene, rays, lights_, response_, options, progress)),
       background_(traced_background_) {

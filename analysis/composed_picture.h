@@ -38,7 +38,7 @@ class ComposedCamera {
   CameraResponse response_;
   LensRays lens_;
   LensScatter scatter_;
-  double spread_px_;  // of the lens's diffraction, beyond which only scatter_ goes
+  double spread_px_;  // beyond a pixel's square, further than which only scatter_ goes
   TraceOptions options_;
   FloatPlane traced_background_;  // before the lens's scatter
   FloatPlane background_;

@@ -67,9 +67,8 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
                                                rays.BodyNames(), markers, scene.markers));
     files.push_back(name + ".exr");
     if (film) {
-      WritePng(folder / (name + ".png"),
-               Sensor(camera).Expose(film->electrons, exposures_s[c],
-                                     NoiseKey(options.noise_seed, name)));
+      WritePng(folder / (name + ".png"), Sensor(camera).Expose(film->electrons, exposures_s[c],
+                                                               NoiseKey(options.noise_seed, name)));
       files.push_back(name + ".png");
     }
     CameraTruth truth{name, {}};

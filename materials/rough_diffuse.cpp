@@ -6,9 +6,11 @@
 //
 // With mu the cosines, s = wo.wi - mu_o mu_i, and t = max(mu_o, mu_i) where s > 0, else 1,
 //   f = rho / pi A (1 + r s / t)  +  rho_ms / pi  (1 - E(wo)) (1 - E(wi)) / (1 - E_mean)
-//   A = 1 / (1 + (1/2 - 2/(3 pi)) r),   E = A (1 + r G / pi),   E_mean = A (1 + (2/3 - 28/(15 pi))
-//   r) G = sin (theta - sin cos) + 2/3 (sin / cos (1 - sin^3) - sin) rho_ms = rho^2 E_mean / (1 -
-//   rho (1 - E_mean))
+//   A = 1 / (1 + (1/2 - 2/(3 pi)) r)
+//   E = A (1 + r G / pi),   G = sin (theta - sin cos) + 2/3 (sin / cos (1 - sin^3) - sin)
+//   E_mean = A (1 + (2/3 - 28/(15 pi)) r)
+//   rho_ms = rho^2 E_mean / (1 - rho (1 - E_mean))
+//
 // The first term is that of Fujii, E its directional albedo for rho = 1 in closed form; the second
 // is the light that meets two facets or more. Reciprocal; a reflectance of 1 gives all light back.
 #include "core/sampling.h"

@@ -46,8 +46,6 @@ CameraResponse::CameraResponse(const CameraSpec& camera, const std::vector<Spect
       exposure_s_(exposure_s),
       quantum_efficiency_(Spectrum::FromTable(DataPath(camera.sensor.quantum_efficiency))),
       spectra_(spectra) {
-  full_scale_e_ = ((1 << camera.sensor.adc_bits) - 1 - camera.sensor.offset_dn) /
-                  GainDnPerElectron(camera.sensor);
   const int angles = camera_.filter ? kAngles : 1;
   step_sin2_ = LargestSine2(camera_.model) / angles;
   for (int i = 0; i < angles; ++i) {

@@ -39,7 +39,6 @@ class CameraResponse {
   // Of the electrons that light of the scene's first spectrum makes on the axis.
   double MeanWavelength_nm() const;
 
-  double FullScaleElectrons() const { return full_scale_e_; }
   const CameraSpec& Camera() const { return camera_; }
   double ExposureSeconds() const { return exposure_s_; }
 
@@ -60,7 +59,6 @@ class CameraResponse {
 
   CameraSpec camera_;
   double exposure_s_ = 0.0;
-  double full_scale_e_ = 0.0;
   Spectrum quantum_efficiency_;
   std::vector<Spectrum> spectra_;
   double step_sin2_ = 1.0;                // of sin^2 theta, for each element of bands_

@@ -22,11 +22,10 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& l
       lights_(lights),
       response_(response),
       lens_(response.Camera()),
+      spread_(response.Camera(), response.MeanWavelength_nm()),
       markers_(markers),
       options_(options),
       image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))) {
-  if (response.Camera().lens.diffraction)
-    airy_.emplace(response.Camera(), response.MeanWavelength_nm());
   for (const SceneObject& object : scene_.objects)
     bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
 }
@@ -175,8 +174,7 @@ class CoverageSum {
 }  // namespace
 
 std::optional<LensRays::LensRay> PathTracer::SampleLens(int x, int y, PixelSampler& sampler) const {
-  Vec2d px = Vec2d(x, y) + sampler.Next2D().cast<double>() - Vec2d(0.5, 0.5);
-  if (airy_) px += airy_->SampleCore(sampler.Next2D());
+  const Vec2d px = Vec2d(x, y) + spread_.Sample(sampler);
   return lens_.Through(px, lens_.HasAperture() ? sampler.Next2D() : Vec2f::Zero());
 }
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/sampler.h"
-#include "renderer/airy.h"
 #include "renderer/camera_response.h"
 #include "renderer/lens.h"
+#include "renderer/pixel_spread.h"
 #include "scenes/marker_placement.h"
 
 namespace retrolux {
@@ -65,7 +65,7 @@ class PathTracer {
 
  private:
   struct Vertex;
-  // A ray from a place of the pixel, spread by diffraction, through a place of the aperture.
+  // A ray from a place that the pixel counts, through a place of the aperture.
   std::optional<LensRays::LensRay> SampleLens(int x, int y, PixelSampler& sampler) const;
   Vertex MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const;
   void AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
@@ -76,7 +76,7 @@ class PathTracer {
   const Lights& lights_;
   const CameraResponse& response_;
   LensRays lens_;
-  std::optional<AiryDisc> airy_;
+  PixelSpread spread_;
   const std::vector<PlacedMarker>& markers_;
   TraceOptions options_;
   uint64_t image_key_;

@@ -8,8 +8,8 @@ namespace retrolux {
 
 // The picture of two fields, from the charges (e-) that the photosites hold at the end of each
 // field's own exposure. Row y is the sum of the lines y and y + 1, of the first field for even y
-// and of the second for odd y; below the last line there is none to add. So the picture lies half a
-// line higher than the lines: row y shows what falls on y + 1/2.
+// and of the second for odd y; below the last line there is none to add. So row y lies between
+// the two lines: renderer/pixel_spread.h puts line y half a row above row y.
 Plane<double> WeaveFields(const Plane<double>& first_e, const Plane<double>& second_e);
 
 }  // namespace retrolux

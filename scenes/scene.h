@@ -99,6 +99,8 @@ struct SensorSpec {
   double gain_dn_e = 0.0;
   double prnu = 0.01;   // photo-response non-uniformity: 1 sigma of the pixels' relative response
   double dsnu_e = 8.0;  // dark-signal non-uniformity: 1 sigma of the pixels' offset
+  // 1 sigma of the way that charge diffuses sideways before a pixel collects it.
+  double charge_diffusion_um = 0.0;
   double temperature_c = 25.0;
   double dark_reference_c = 25.0;
   double dark_doubling_k = 8.0;  // the dark current doubles over this difference of temperature

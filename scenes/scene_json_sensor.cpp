@@ -53,6 +53,8 @@ void ReadOver(JsonReader& json, SensorSpec& sensor) {
   sensor.gain_dn_e = json.Number("gain_dn_e", 0.0, 65535.0, sensor.gain_dn_e);
   sensor.prnu = json.Number("prnu", 0.0, 0.2, sensor.prnu);
   sensor.dsnu_e = json.Number("dsnu_e", 0.0, 1e6, sensor.dsnu_e);
+  sensor.charge_diffusion_um =
+      json.Number("charge_diffusion_um", 0.0, 1000.0, sensor.charge_diffusion_um);
   sensor.temperature_c = json.Number("temperature_c", -100.0, 150.0, sensor.temperature_c);
   sensor.dark_reference_c = json.Number("dark_reference_c", -100.0, 150.0, sensor.dark_reference_c);
   sensor.dark_doubling_k = json.Number("dark_doubling_k", 4.0, 100.0, sensor.dark_doubling_k);

@@ -94,6 +94,7 @@ Json ToJson(const SensorSpec& sensor) {
           {"gain_dn_e", sensor.gain_dn_e},
           {"prnu", sensor.prnu},
           {"dsnu_e", sensor.dsnu_e},
+          {"charge_diffusion_um", sensor.charge_diffusion_um},
           {"temperature_c", sensor.temperature_c},
           {"dark_reference_c", sensor.dark_reference_c},
           {"dark_doubling_k", sensor.dark_doubling_k},

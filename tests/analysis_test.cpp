@@ -1,33 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "analysis/check.h"
 #include "analysis/marker_coverage.h"
 #include "scenes/built_in.h"
 
 namespace retrolux {
 namespace {
-
-class PhysicalChecks : public testing::TestWithParam<CheckGroup> {};
-
-TEST_P(PhysicalChecks, MeasureWhatTheyMust) {
-  for (const Check& check : GetParam().run()) {
-    EXPECT_TRUE(check.Pass()) << check.name << ": measured " << check.measured << " " << check.unit
-                              << ", expected " << check.expected << " +- " << check.tolerance
-                              << " (" << check.source << ")";
-    RecordProperty(check.name, std::to_string(check.measured));
-  }
-}
-INSTANTIATE_TEST_SUITE_P(All, PhysicalChecks, testing::ValuesIn(CheckGroups()),
-                         [](const auto& group) {
-                           std::string name = group.param.name;
-                           for (char& c : name)
-                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-                           return name;
-                         });
-
-TEST(Check, NaNFails) {
-  EXPECT_FALSE((Check{"", std::nan(""), 1.0, 1e9, "", ""}.Pass()));
-}
 
 TEST(MarkerGrid, CellsCoverTheFaceHalf) {
   // Prolate spheroid with a = 100, c = 140: S = 2 pi a^2 (1 + c / (a e) asin e), e = sqrt(1 -

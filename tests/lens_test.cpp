@@ -9,6 +9,8 @@
 
 #include "core/rng.h"
 #include "renderer/lens_scatter.h"
+#include "renderer/pixel_spread.h"
+#include "renderer/sensor_fields.h"
 #include "scenes/built_in.h"
 
 namespace retrolux {
@@ -301,6 +303,51 @@ TEST(Airy, TailFallsOffAsItShould) {
     EXPECT_GT(inside, (AiryEncircledEnergy(v_per_px * side) - core) / all);
     EXPECT_LT(inside, (AiryEncircledEnergy(v_per_px * std::sqrt(2.0) * side) - core) / all);
   }
+}
+
+// Variances along an axis: of the square 1/12, of the Gaussian sigma^2 less what the cut at 4 sigma
+// takes: 1 - q / (1 - q) 4^2 / 2 with q = exp(-8) = 3.4e-4 of the whole outside. 5 standard errors
+// of a variance (kurtosis 3 at most): sigma^2 sqrt(2 / n).
+TEST(PixelSpread, SquareAndDiffusionAddTheirVariances) {
+  CameraSpec camera = OvalScene().cameras[0];
+  camera.sensor.charge_diffusion_um = 8.0;
+  const PixelSpread spread(camera, 880.0);
+  const double sigma_px = 8e-3 / 30.0 * camera.model.fx;
+  EXPECT_NEAR(spread.Radius_px(), 4.0 * sigma_px, 1e-3);
+  constexpr int kSamples = 1 << 16;
+  Vec2d sum = Vec2d::Zero(), sum2 = Vec2d::Zero();
+  for (uint32_t i = 0; i < kSamples; ++i) {
+    PixelSampler sampler(Mix64(3), i);
+    const Vec2d px = spread.Sample(sampler);
+    sum += px;
+    sum2 += px.cwiseProduct(px);
+  }
+  const double q = std::exp(-8.0);
+  const double expected = 1.0 / 12.0 + sigma_px * sigma_px * (1.0 - 8.0 * q / (1.0 - q));
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(sum[axis] / kSamples, 0.0, 5.0 * std::sqrt(expected / kSamples));
+    EXPECT_NEAR(sum2[axis] / kSamples, expected, 5.0 * expected * std::sqrt(2.0 / kSamples));
+  }
+  camera.sensor.charge_diffusion_um = 0.0;
+  EXPECT_EQ(PixelSpread(camera, 880.0).Radius_px(), 0.0);
+}
+
+// A signal that grows by one electron a row, as photosites record it whose line j lies half a row
+// above row j: the sum of two lines is twice the signal of the row between them.
+TEST(PixelSpread, RowsOfAnInterlacedPictureLieWhereTheySay) {
+  CameraSpec camera = OvalScene().cameras[0];
+  camera.sensor.scan = Scan::kInterlaced;
+  const PixelSpread spread(camera, 880.0);
+  constexpr int kSamples = 4096, kRows = 8;
+  double offset = 0.0;
+  for (uint32_t i = 0; i < kSamples; ++i) {
+    PixelSampler sampler(Mix64(5), i);
+    offset += spread.Sample(sampler).y() / kSamples;
+  }
+  Plane<double> lines(1, kRows);
+  for (int y = 0; y < kRows; ++y) lines(0, y) = 100.0 + y + offset;
+  const Plane<double> picture = WeaveFields(lines, lines);
+  for (int y = 0; y + 1 < kRows; ++y) EXPECT_NEAR(picture(0, y), 2.0 * (100.0 + y), 1e-3);
 }
 
 TEST(LensScatter, ConservesWhatItSpreads) {

@@ -95,6 +95,13 @@ Scene TestScene() {
   camera.sensor.gain_dn_e = 0.2;
   camera.sensor.prnu = 0.02;
   camera.sensor.dsnu_e = 5.5;
+  camera.sensor.charge_diffusion_um = 2.5;
+  camera.model.distortion = {-0.2, 0.05, 1e-4, -2e-4, 0.01};
+  camera.lens.focus_distance_mm = 1600.0;
+  camera.lens.stop_radius_mm = 7.5;
+  camera.lens.stop_distance_mm = 22.0;
+  camera.lens.diffraction = true;
+  camera.lens.veiling_glare = 0.015;
   camera.sensor.temperature_c = 41.5;
   camera.sensor.dark_reference_c = 20.0;
   camera.sensor.dark_doubling_k = 7.0;
@@ -126,13 +133,15 @@ void ExpectEqual(const CameraSpec& a, const CameraSpec& b) {
   EXPECT_EQ(a.model.camera_from_world.rotation, b.model.camera_from_world.rotation);
   EXPECT_EQ(a.model.camera_from_world.translation, b.model.camera_from_world.translation);
   const auto lens = [](const Lens& l) {
-    return std::tie(l.focal_length_mm, l.f_number, l.transmission);
+    return std::tie(l.focal_length_mm, l.f_number, l.transmission, l.focus_distance_mm,
+                    l.stop_radius_mm, l.stop_distance_mm, l.diffraction, l.veiling_glare);
   };
   EXPECT_EQ(lens(a.lens), lens(b.lens));
+  EXPECT_EQ(a.model.distortion, b.model.distortion);
   const auto sensor = [](const SensorSpec& s) {
     return std::tie(s.quantum_efficiency, s.full_well_e, s.read_noise_e, s.dark_current_e_s,
-                    s.adc_bits, s.offset_dn, s.gain_dn_e, s.prnu, s.dsnu_e, s.temperature_c,
-                    s.dark_reference_c, s.dark_doubling_k, s.serial, s.scan);
+                    s.adc_bits, s.offset_dn, s.gain_dn_e, s.prnu, s.dsnu_e, s.charge_diffusion_um,
+                    s.temperature_c, s.dark_reference_c, s.dark_doubling_k, s.serial, s.scan);
   };
   const auto options = [](const SensorSpec& s) {
     const Blooming blooming = s.blooming.value_or(Blooming{-1.0});
