@@ -24,7 +24,7 @@ class PixelSpread {
 
  private:
   std::optional<AiryDisc> airy_;
-  Vec2d diffusion_px_;          // 1 sigma along columns and rows
+  Vec2d diffusion_px_;           // 1 sigma along columns and rows
   double line_offset_px_ = 0.0;  // of the photosite from the pixel, along the rows
 };
 
