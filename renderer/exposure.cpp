@@ -42,9 +42,8 @@ double ExposureSeconds(const Scene& scene, const CameraSpec& camera) {
                     "do, or exposure.time_s in seconds",
                     camera.model.name, exposure.marker_material));
   }
-  const double electrons_per_s =
-      radiance * one_second.ExpectedElectrons(0, 1.0, 1.0) +
-      camera.sensor.dark_current_e_s * camera.sensor.DarkCurrentFactor();
+  const double electrons_per_s = radiance * one_second.ExpectedElectrons(0, 1.0, 1.0) +
+                                 camera.sensor.dark_current_e_s * camera.sensor.DarkCurrentFactor();
   const double max_dn = (1 << camera.sensor.adc_bits) - 1;
   const double wanted_e =
       (exposure.fraction * max_dn - camera.sensor.offset_dn) / GainDnPerElectron(camera.sensor);

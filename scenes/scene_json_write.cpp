@@ -55,14 +55,10 @@ Json ToJson(const Mat3d& m) {
 }
 
 Json ToJson(const Lens& lens) {
-  return {{"focal_length_mm", lens.focal_length_mm},
-          {"f_number", lens.f_number},
-          {"transmission", lens.transmission},
-          {"focus_distance_mm", lens.focus_distance_mm},
-          {"stop_radius_mm", lens.stop_radius_mm},
-          {"stop_distance_mm", lens.stop_distance_mm},
-          {"diffraction", lens.diffraction},
-          {"veiling_glare", lens.veiling_glare}};
+  return {{"focal_length_mm", lens.focal_length_mm}, {"f_number", lens.f_number},
+          {"transmission", lens.transmission},       {"focus_distance_mm", lens.focus_distance_mm},
+          {"stop_radius_mm", lens.stop_radius_mm},   {"stop_distance_mm", lens.stop_distance_mm},
+          {"diffraction", lens.diffraction},         {"veiling_glare", lens.veiling_glare}};
 }
 
 Json ToJson(const Blooming& blooming) {
