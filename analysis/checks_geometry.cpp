@@ -4,8 +4,8 @@
 #include "analysis/area_tests.h"
 #include "analysis/cap_area.h"
 #include "analysis/check.h"
+#include "analysis/scene_tracer.h"
 #include "core/sampling.h"
-#include "renderer/path_tracer.h"
 
 namespace retrolux {
 
@@ -40,20 +40,15 @@ double MeanRadianceUnderDisc(double white_radius, double black_radius, double he
   camera.model = CameraModel::FromFieldOfView(
       "camera", 64, 64, 10.0, 10.0, LookAt({0, 0, 0.5 * height}, Vec3d::Zero(), Vec3d::UnitX()));
   scene.cameras.push_back(camera);
-  const RayScene rays(scene);
-  const Lights lights(scene, rays, RingChoice::kAll, "camera");
-  const CameraResponse response(camera, lights.Spectra(), 1e-3);
-  const std::vector<PlacedMarker> no_markers;
-  const PathTracer tracer(scene, rays, lights, response, no_markers, {});
+  const SceneTracer tracer(scene);
   double sum = 0.0;
   for (int s = 0; s < samples; ++s) {
     PixelSampler sampler(Mix64(17), static_cast<uint32_t>(s));
     const Vec2f place = SampleUnitDisc(sampler.Next2D());
-    const Spectral nm = response.SampleWavelengths(sampler.Next1D(), 1.0f);
     const auto radius = static_cast<float>(0.9999 * white_radius);
-    const Vec3f above(radius * place.x(), radius * place.y(), static_cast<float>(0.5 * height));
-    sum +=
-        static_cast<double>(tracer.TracePath(above, -Vec3f::UnitZ(), nm, sampler).radiance.sum());
+    const Vec3f below(radius * place.x(), radius * place.y(), 0.0f);
+    const Vec3f above(below.x(), below.y(), static_cast<float>(0.5 * height));
+    sum += tracer.Radiance(above, below, sampler);
   }
   return sum / samples;
 }

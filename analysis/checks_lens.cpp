@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/check.h"
+#include "analysis/scene_tracer.h"
 #include "renderer/film.h"
 #include "renderer/marker_truth.h"
 #include "scenes/mesh_shapes.h"
@@ -17,7 +18,8 @@ struct Spot {
 };
 
 // Moments of the electrons in a square window of the picture.
-Spot MeasureSpot(const PathTracer& tracer, const Vec2d& middle, int half) {
+template <typename Tracer>
+Spot MeasureSpot(const Tracer& tracer, const Vec2d& middle, int half) {
   double sum = 0.0, sum2 = 0.0;
   Vec2d first = Vec2d::Zero();
   for (int y = -half; y <= half; ++y) {
@@ -47,13 +49,9 @@ double BlurDiameter_mm(double depth_mm, double side_mm) {
   scene.ambient.radiance_w_m2_sr = 1.0;
   scene.ambient.panels.push_back(
       {{0, -0.5 * side_mm, -0.5 * side_mm}, {0, side_mm, 0}, {0, 0, side_mm}});
-  const RayScene rays(scene);
-  const Lights lights(scene, rays, RingChoice::kAll, "camera");
-  const CameraResponse response(camera, lights.Spectra(), 1e-3);
-  const std::vector<PlacedMarker> no_markers;
   TraceOptions options;
   options.samples_per_pixel = 1 << 14;
-  const PathTracer tracer(scene, rays, lights, response, no_markers, options);
+  const SceneTracer tracer(scene, options);
   const Spot spot = MeasureSpot(tracer, {camera.model.cx, camera.model.cy}, 5);
   // Variances add: the disc's (c / 4)^2 an axis, the square's and the pixel's side^2 / 12.
   const double side_px = side_mm * camera.model.fx / depth_mm;

@@ -3,6 +3,7 @@
 
 #include "analysis/check.h"
 #include "analysis/measuring_bench.h"
+#include "analysis/scene_tracer.h"
 #include "core/sampling.h"
 #include "renderer/exposure.h"
 #include "renderer/film.h"
@@ -23,11 +24,7 @@ double FurnaceRadiance(const std::string& material_json, int samples) {
   camera.model = CameraModel::FromFieldOfView("camera", 64, 64, 7.0, 7.0,
                                               LookAt({1600, 0, 0}, Vec3d::Zero(), Vec3d::UnitZ()));
   scene.cameras.push_back(camera);
-  const RayScene rays(scene);
-  const Lights lights(scene, rays, RingChoice::kAll, "camera");
-  const CameraResponse response(camera, lights.Spectra(), 1e-3);
-  const std::vector<PlacedMarker> no_markers;
-  const PathTracer tracer(scene, rays, lights, response, no_markers, {});
+  const SceneTracer tracer(scene);
   const Vec3f origin = camera.model.Centre().cast<float>();
   double sum = 0.0;
   for (int s = 0; s < samples; ++s) {
@@ -35,9 +32,7 @@ double FurnaceRadiance(const std::string& material_json, int samples) {
     const Vec2f disc = SampleUnitDisc(sampler.Next2D());
     // Through a disc that is the sphere's silhouette, a little smaller than its great circle.
     const Vec3f target(0.0f, 99.0f * disc.x(), 99.0f * disc.y());
-    const Spectral nm = response.SampleWavelengths(sampler.Next1D(), 1.0f);
-    sum += static_cast<double>(
-        tracer.TracePath(origin, (target - origin).normalized(), nm, sampler).radiance.sum());
+    sum += tracer.Radiance(origin, target, sampler);
   }
   return sum / samples;
 }
@@ -131,13 +126,9 @@ std::vector<Check> CheckCosFourth() {
         CameraModel::FromFieldOfView("camera", 641, 481, field.h_deg, field.v_deg,
                                      LookAt({1600, 0, 0}, Vec3d::Zero(), Vec3d::UnitZ()));
     scene.cameras = {camera};
-    const RayScene rays(scene);
-    const Lights lights(scene, rays, RingChoice::kAll, "camera");
-    const CameraResponse response(camera, lights.Spectra(), 1e-3);
-    const std::vector<PlacedMarker> no_markers;
     TraceOptions options;
     options.samples_per_pixel = 1 << 14;
-    const PathTracer tracer(scene, rays, lights, response, no_markers, options);
+    const SceneTracer tracer(scene, options);
     const auto level = [&](int x, int y) {
       return static_cast<double>(tracer.EstimatePixel(x, y).electrons.sum());
     };

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/check.h"
+#include "analysis/scene_tracer.h"
 #include "core/sampling.h"
 #include "renderer/path_tracer.h"
 #include "scenes/built_in.h"
@@ -28,20 +29,14 @@ double RingIrradiance(double distance_mm, double off_axis_mm) {
       "camera", 64, 64, 5.0, 5.0, LookAt({distance_mm, 0, 0}, Vec3d::Zero(), Vec3d::UnitZ()));
   camera.ring = DiodeRing{};
   scene.cameras.push_back(camera);
-  const RayScene rays(scene);
-  const Lights lights(scene, rays, RingChoice::kAll, "camera");
-  const CameraResponse response(camera, lights.Spectra(), 1e-3);
-  const std::vector<PlacedMarker> no_markers;
-  const PathTracer tracer(scene, rays, lights, response, no_markers, {});
+  const SceneTracer tracer(scene);
   const Vec3f origin(200.0f, static_cast<float>(off_axis_mm), 100.0f);
   const Vec3f target(0.0f, static_cast<float>(off_axis_mm), 0.0f);
   constexpr int kSamples = 1 << 12;
   double sum = 0.0;
   for (int s = 0; s < kSamples; ++s) {
     PixelSampler sampler(Mix64(5), static_cast<uint32_t>(s));
-    const Spectral nm = response.SampleWavelengths(sampler.Next1D(), 1.0f);
-    sum += static_cast<double>(
-        tracer.TracePath(origin, (target - origin).normalized(), nm, sampler).radiance.sum());
+    sum += tracer.Radiance(origin, target, sampler);
   }
   return kPi * sum / kSamples;
 }
