@@ -60,13 +60,6 @@ std::vector<SampleSet> AreaBench::Seen(const Mask& mask, const Mat3d& world_from
   return sets;
 }
 
-ReconstructionError RoomError(const Scenario& room, double gamma_max_mm) {
-  std::vector<ReconstructionError::Point> points;
-  for (const ErrorPoint& point : room.error_points)
-    points.push_back({point.angle_deg, point.error_mm});
-  return {points, gamma_max_mm};
-}
-
 SampleSet InBoth(const SampleSet& a, const SampleSet& b) {
   SampleSet both(a.size());
   for (size_t word = 0; word < a.size(); ++word) both[word] = a[word] & b[word];

@@ -24,8 +24,6 @@ PlotlyFigure FigureOf(const std::vector<PlotCurve>& curves, nlohmann::json x_axi
 
 nlohmann::json LogAxisTitle(const std::string& title);
 
-using AreaRows = std::vector<const AreaRow*>;
-
 // One of the areas in units of the sphere's radius squared, over x, where a row has it.
 PlotCurve AreasOver(const std::string& name, const AreaRows& rows,
                     std::optional<double> AreaRow::*which);

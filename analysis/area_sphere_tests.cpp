@@ -103,7 +103,7 @@ class TripletBench {
         sphere_(bench.Fine()),
         cameras_(CamerasAt(bench, placement)),
         seen_(bench.SeenOfSphere(sphere_, cameras_)),
-        weights_(room_, RoomError(room_, room_.gamma_max_mm), placement) {}
+        weights_(room_, {room_.error_points, room_.gamma_max_mm}, placement) {}
 
   // Area and cost.
   std::array<AreaRow, 2> Rows(std::array<int, 3> triplet, const std::string& group) const {

@@ -16,8 +16,6 @@ using nlohmann::json;
 
 constexpr double kRadius = kAreaSphereRadius_mm;
 
-using Rows = std::vector<const AreaRow*>;
-
 // --- rows as the results of tasks ---
 
 json ToJson(const std::optional<double>& value) {
@@ -127,7 +125,7 @@ BeamThresholds ThresholdsOf(const std::vector<const AreaRow*>& rows) {
 
 // The best angle as measured: of the closed form times the line through measured over closed form.
 // The greatest of the measured costs itself would move by degrees with the samples' noise.
-double MeasuredOptimum(const Rows& rows, const ReconstructionError& error, double half_angle) {
+double MeasuredOptimum(const AreaRows& rows, const ReconstructionError& error, double half_angle) {
   constexpr double kFrom = 40.0, kTo = 70.0, kStep = 0.01;  // degrees
   std::vector<double> psi, ratio;
   for (const AreaRow* row : rows) {
@@ -168,7 +166,7 @@ void FindOptima(const AreaBench& bench, AreaStudy& study) {
   const double distance = bench.Distance_mm();
   const double unit = std::acos(1.0 / distance), ours = std::acos(kRadius / distance);
   const auto optimum = [&](double gamma, double half_angle) {
-    return DegFromRad(SphereOptimalAngle(RoomError(bench.Room(), gamma), half_angle));
+    return DegFromRad(SphereOptimalAngle({bench.Room().error_points, gamma}, half_angle));
   };
   for (int i = 0; i <= 20; ++i) {
     const double gamma = 5.9 + 0.05 * i;
@@ -179,7 +177,7 @@ void FindOptima(const AreaBench& bench, AreaStudy& study) {
   study.gamma_max_mm = bench.Room().gamma_max_mm;
   study.calibrated_unit_deg = optimum(study.gamma_max_mm, unit);
   study.calibrated_deg = optimum(study.gamma_max_mm, ours);
-  const ReconstructionError error = RoomError(bench.Room(), study.gamma_max_mm);
+  const ReconstructionError error(bench.Room().error_points, study.gamma_max_mm);
   study.rendered_deg = MeasuredOptimum(study.Rows("pair_over_psi"), error, ours);
   AddCosts(error, study);
 }
@@ -266,8 +264,7 @@ LineFit FitLine(const std::vector<double>& x, const std::vector<double>& y) {
   return {mean_y - xy / xx * mean_x, xy / xx};
 }
 
-std::vector<const AreaRow*> AreaStudy::Rows(const std::string& test,
-                                            const std::string& group) const {
+AreaRows AreaStudy::Rows(const std::string& test, const std::string& group) const {
   std::vector<const AreaRow*> found;
   for (const AreaRow& row : rows) {
     if (row.test == test && (group.empty() || row.group == group)) found.push_back(&row);

@@ -58,6 +58,8 @@ struct BeamThresholds {
   double part_hidden_up_to = 0.0;  // 0: never
 };
 
+using AreaRows = std::vector<const AreaRow*>;
+
 struct AreaStudy {
   AreaStudyOptions options;
   std::vector<AreaRow> rows;
@@ -69,7 +71,7 @@ struct AreaStudy {
   double calibrated_unit_deg = 0.0, calibrated_deg = 0.0, rendered_deg = 0.0;
   TaskReport tasks;
 
-  std::vector<const AreaRow*> Rows(const std::string& test, const std::string& group = "") const;
+  AreaRows Rows(const std::string& test, const std::string& group = "") const;
 };
 
 // Figures over rows that have a closed form.

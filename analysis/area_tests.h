@@ -46,9 +46,6 @@ class AreaBench {
   std::unique_ptr<Mask> fine_, coarse_;
 };
 
-// The error curve of a room, with a gamma_max of its own.
-ReconstructionError RoomError(const Scenario& room, double gamma_max_mm);
-
 SampleSet InBoth(const SampleSet& a, const SampleSet& b);
 
 // Nine cameras every 40 degrees around the equator: one, two and three of them.

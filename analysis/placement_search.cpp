@@ -9,23 +9,12 @@
 
 namespace retrolux {
 
-namespace {
-
-ReconstructionError ErrorOf(const Scenario& scenario) {
-  std::vector<ReconstructionError::Point> points;
-  for (const ErrorPoint& point : scenario.error_points)
-    points.push_back({point.angle_deg, point.error_mm});
-  return {points, scenario.gamma_max_mm};
-}
-
-}  // namespace
-
 PlacementSearch::PlacementSearch(const Scenario& scenario, const std::string& mask_name,
                                  VisibilityStore& store)
     : scenario_(scenario),
       mask_name_(mask_name),
       store_(store),
-      error_(ErrorOf(scenario)),
+      error_(scenario.error_points, scenario.gamma_max_mm),
       rotations_(MaskRotations(scenario.Mask(mask_name))) {
   for (const MaskRotation& rotation : rotations_) {
     std::vector<Vec3d> points;

@@ -14,18 +14,17 @@ namespace retrolux {
 
 namespace {
 
-using Point = ReconstructionError::Point;
-
-double LeastError(const std::vector<Point>& points) {
-  return std::min_element(points.begin(), points.end(),
-                          [](const Point& a, const Point& b) { return a.error_mm < b.error_mm; })
+double LeastError(const std::vector<ErrorPoint>& points) {
+  return std::min_element(
+             points.begin(), points.end(),
+             [](const ErrorPoint& a, const ErrorPoint& b) { return a.error_mm < b.error_mm; })
       ->error_mm;
 }
 
-void CheckPoints(const std::vector<Point>& points) {
+void CheckPoints(const std::vector<ErrorPoint>& points) {
   RETROLUX_CHECK(points.size() >= 3, "{} known points", points.size());
   double last_deg = 0.0;
-  for (const Point& point : points) {
+  for (const ErrorPoint& point : points) {
     RETROLUX_CHECK(point.angle_deg > last_deg && point.angle_deg <= 90.0, "{} deg after {} deg",
                    point.angle_deg, last_deg);
     RETROLUX_CHECK(point.error_mm > 0.0 && std::isfinite(point.error_mm), "{} mm at {} deg",
@@ -82,12 +81,12 @@ double GoldenSectionMaximum(const F& f, double begin, double end) {
 
 }  // namespace
 
-ReconstructionError::ReconstructionError(const std::vector<Point>& points, double gamma_max_mm)
+ReconstructionError::ReconstructionError(const std::vector<ErrorPoint>& points, double gamma_max_mm)
     : gamma_max_mm_(gamma_max_mm) {
   CheckPoints(points);
   RETROLUX_CHECK(gamma_max_mm > LeastError(points), "{} mm; least error {} mm", gamma_max_mm,
                  LeastError(points));
-  for (const Point& point : points) {
+  for (const ErrorPoint& point : points) {
     angles_.push_back(RadFromDeg(point.angle_deg));
     errors_.push_back(point.error_mm);
   }
@@ -135,7 +134,7 @@ double SphereOptimalAngle(const ReconstructionError& error, double cap_half_angl
   return GoldenSectionMaximum(weighted_area, best - kStep, best + kStep);
 }
 
-double CalibrateGammaMax(const std::vector<Point>& points, double optimal_angle,
+double CalibrateGammaMax(const std::vector<ErrorPoint>& points, double optimal_angle,
                          double cap_half_angle) {
   CheckPoints(points);
   const auto optimum = [&](double gamma_max) {

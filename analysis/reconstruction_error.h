@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/conventions.h"
+#include "scenes/scenario.h"
 
 namespace retrolux {
 
@@ -16,15 +16,10 @@ namespace retrolux {
 // between).
 class ReconstructionError {
  public:
-  struct Point {
-    double angle_deg;
-    double error_mm;
-  };
-
   // Three points or more, by ascending angles in (0, 90] degrees, errors positive, and gamma_max_mm
   // (the error at which the weight becomes zero) above the least of them. LoadScenario() sees to
   // it; here anything else is our own fault.
-  ReconstructionError(const std::vector<Point>& points, double gamma_max_mm);
+  ReconstructionError(const std::vector<ErrorPoint>& points, double gamma_max_mm);
 
   // Infinite at psi = 0 and pi.
   double Error_mm(double psi) const;
@@ -47,7 +42,7 @@ double SphereOptimalAngle(const ReconstructionError& error, double cap_half_angl
 
 // The gamma_max with which SphereOptimalAngle is `optimal_angle`, by bisection: the more error is
 // allowed, the smaller the optimal angle. InputError if no gamma_max gives that angle.
-double CalibrateGammaMax(const std::vector<ReconstructionError::Point>& points,
-                         double optimal_angle, double cap_half_angle);
+double CalibrateGammaMax(const std::vector<ErrorPoint>& points, double optimal_angle,
+                         double cap_half_angle);
 
 }  // namespace retrolux

@@ -12,7 +12,7 @@
 namespace retrolux {
 namespace {
 
-using Points = std::vector<ReconstructionError::Point>;
+using Points = std::vector<ErrorPoint>;
 
 // What the thesis's tables say about figure 4.3, at 0.5 mm per pixel.
 Points ThesisPoints() {

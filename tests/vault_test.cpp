@@ -198,12 +198,6 @@ TEST(Nozzle, MeshIsTheSolidsSurface) {
 
 // --- cost -------------------------------------------------------------------------------------
 
-ReconstructionError ErrorCurve(const Scenario& scenario) {
-  std::vector<ReconstructionError::Point> points;
-  for (const ErrorPoint& p : scenario.error_points) points.push_back({p.angle_deg, p.error_mm});
-  return {points, scenario.gamma_max_mm};
-}
-
 // Random sets of 500 samples for nine cameras.
 struct RandomViews {
   std::vector<SampleSet> sets;
@@ -244,7 +238,7 @@ TEST(PlacementCost, AreasAreThoseOfTheIntersections) {
 TEST(PlacementCost, TripletIsEquation43) {
   const Scenario scenario = LoadScenario("1a");
   const Placement placement = {60.0, 31.67, 70.52};
-  const ReconstructionError error = ErrorCurve(scenario);
+  const ReconstructionError error(scenario.error_points, scenario.gamma_max_mm);
   const PlacementWeights weights(scenario, error, placement);
   const std::vector<Vec3d> c = CameraCentres(scenario, placement);
   const auto w = [&](size_t i, size_t j) { return error.Weight(SeparationRad(c[i], c[j])); };
@@ -267,7 +261,7 @@ TEST(PlacementCost, TripletIsEquation43) {
 TEST(PlacementCost, QuadrupletCountsNoAreaTwice) {
   const Scenario scenario = LoadScenario("1a");
   const Placement placement = {60.0, 31.67, 70.52};
-  const ReconstructionError error = ErrorCurve(scenario);
+  const ReconstructionError error(scenario.error_points, scenario.gamma_max_mm);
   const PlacementWeights weights(scenario, error, placement);
   const std::vector<Vec3d> c = CameraCentres(scenario, placement);
   const SampleSet same = {0xffff};
@@ -284,7 +278,7 @@ TEST(PlacementCost, QuadrupletCountsNoAreaTwice) {
 
 TEST(PlacementCost, DropsCombinationsWithAClosePair) {
   Scenario scenario = LoadScenario("1a");
-  const ReconstructionError error = ErrorCurve(scenario);
+  const ReconstructionError error(scenario.error_points, scenario.gamma_max_mm);
   const Placement placement = {90.0, 70.52, 70.52};  // consecutive cameras 21.2 degrees apart
   EXPECT_EQ(PlacementWeights(scenario, error, placement).Combinations().size(), 85u);
   scenario.combinations.min_separation_deg = 25.0;
