@@ -24,7 +24,12 @@ const char* OutcomeName(Outcome outcome) {
 namespace {
 
 void CheckStudyScene(const Scene& scene) {
-  scene.Object("mask");
+  if (scene.Object("mask").perforation) {
+    throw InputError(
+        fmt::format("scene '{}': a perforated mask; expected a closed one: the study moves its "
+                    "marker over one geometry, in which no holes can be closed",
+                    scene.name));
+  }
   std::vector<std::string> names;
   for (const CameraSpec& camera : scene.cameras) names.push_back(camera.model.name);
   for (const std::string& name : names) {

@@ -1,6 +1,7 @@
 #include "analysis/shot.h"
 
 #include "core/atomic_file.h"
+#include "renderer/edge_pixels.h"
 #include "renderer/exposure.h"
 #include "renderer/lens_scatter.h"
 #include "renderer/sensor.h"
@@ -20,6 +21,21 @@ std::vector<const CameraSpec*> ChosenCameras(const Scene& scene,
   return cameras;
 }
 
+int EdgeSamples(const ShotOptions& options) {
+  constexpr int kMore = 4;
+  return options.edge_samples_per_pixel > 0 ? options.edge_samples_per_pixel
+                                            : kMore * options.trace.samples_per_pixel;
+}
+
+Plane<int> SamplesOf(const IdBuffers& ids, const CameraModel& camera, const ShotInfo& info) {
+  const Plane<uint8_t> edges = EdgePixels(ids, camera);
+  Plane<int> samples(camera.width, camera.height, info.samples_per_pixel);
+  for (size_t i = 0; i < edges.data.size(); ++i) {
+    if (edges.data[i] != 0) samples.data[i] = info.edge_samples_per_pixel;
+  }
+  return samples;
+}
+
 }  // namespace
 
 std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& options,
@@ -31,6 +47,7 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
                 options.trace.seed,
                 options.noise_seed,
                 options.ids_only ? 0 : options.trace.samples_per_pixel,
+                options.ids_only ? 0 : EdgeSamples(options),
                 0.0};
   std::vector<double> exposures_s;
   for (const CameraSpec* camera : cameras)
@@ -60,7 +77,8 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
       const Lights lights(scene, rays, options.rings, name);
       const CameraResponse response(camera, lights.Spectra(), exposures_s[c]);
       const PathTracer tracer(scene, rays, lights, response, markers, options.trace);
-      film.emplace(RenderFilm(tracer, camera.model, lights.GroupNames(), progress));
+      film.emplace(RenderFilm(tracer, camera.model, SamplesOf(ids, camera.model, info),
+                              lights.GroupNames(), progress));
       LensScatter(camera, response.MeanWavelength_nm()).Apply(*film);
     }
     WriteExr(folder / (name + ".exr"), ShotExr(camera, ids, film ? &*film : nullptr, info,

@@ -11,6 +11,9 @@ struct ShotOptions {
   std::vector<std::string> cameras;  // empty: all
   RingChoice rings = RingChoice::kAll;
   TraceOptions trace;
+  // Of pixels in which something begins or ends (renderer/edge_pixels.h); the noise of a picture is
+  // mostly theirs. 0: four times those of the others.
+  int edge_samples_per_pixel = 0;
   uint64_t noise_seed = 1;
   bool ids_only = false;
 };

@@ -58,6 +58,10 @@ void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run) {
   sub->add_option("--spp", command->shot.trace.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
+  sub->add_option("--edge-spp", command->shot.edge_samples_per_pixel,
+                  "samples per pixel at the edges of objects and markers, where pictures are "
+                  "noisiest; default: 4 times --spp")
+      ->check(CLI::Range(1, 1 << 20));
   sub->add_option("--size", command->size, "WxH in px, same field of view; default: the camera's");
   sub->add_option("--rings", command->rings, "whose diodes are on: all, or each camera's own only")
       ->check(CLI::IsMember({"all", "own"}))

@@ -42,6 +42,7 @@ Vec2d Distortion::Apply(const Vec2d& ideal) const {
 }
 
 Eigen::Matrix2d Distortion::Jacobian(const Vec2d& ideal) const {
+  if (IsNone()) return Eigen::Matrix2d::Identity();
   const double x = ideal.x(), y = ideal.y(), r2 = ideal.squaredNorm();
   const double radial = 1.0 + r2 * (k1_ + r2 * (k2_ + r2 * k3_));
   const double slope = 2.0 * (k1_ + r2 * (2.0 * k2_ + r2 * 3.0 * k3_));  // d radial / dx = slope x

@@ -38,8 +38,7 @@ Size SizeOf(const ExrChannel& channel) {
 }
 
 // libpng says what it thinks of a cut-off file on stderr; so we look first.
-void CheckPngIsWhole(const fs::path& file) {
-  const std::string bytes = ReadTextFile(file);
+void CheckPngIsWhole(const fs::path& file, const std::string& bytes) {
   if (!bytes.starts_with("\x89PNG") ||
       bytes.find("IEND", bytes.size() < 12 ? 0 : bytes.size() - 12) != std::string::npos)
     return;
@@ -56,7 +55,7 @@ std::unique_ptr<OIIO::ImageInput> Open(const fs::path& file) {
     throw InputError::At(file, "", fs::is_directory(file, error) ? "is a folder" : "no such file",
                          "a picture");
   }
-  CheckPngIsWhole(file);
+  CheckPngIsWhole(file, ReadTextFile(file));
   auto input = OIIO::ImageInput::open(file.string());
   if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
   return input;
@@ -185,6 +184,42 @@ void WritePng(const fs::path& file, const DigitalImage& image) {
   WriteTextFile(file, EncodeGreyPng(image));
 }
 
+namespace {
+
+// Rec. 709 of the first three channels, or the first.
+float Grey(const float* pixel, size_t channels) {
+  return channels >= 3 ? 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2] : pixel[0];
+}
+
+// IEC 61966-2-1.
+float LinearFromSrgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace
+
+FloatPlane DecodeLinearGrey(const std::string& bytes, const fs::path& file) {
+  CheckPngIsWhole(file, bytes);
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+  auto input = OIIO::ImageInput::open(file.filename().string(), nullptr, &memory);
+  if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
+  const OIIO::ImageSpec& spec = input->spec();
+  const auto channels = static_cast<size_t>(spec.nchannels);
+  const bool linear = spec.format.is_floating_point();
+  FloatPlane grey(spec.width, spec.height);
+  std::vector<float> pixels(grey.data.size() * channels);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data()))
+    throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
+  for (float& value : pixels) {
+    if (!std::isfinite(value))
+      throw InputError::At(file, "", "a pixel that is not a number", "finite pixels");
+    if (!linear) value = LinearFromSrgb(value);
+  }
+  for (size_t i = 0; i < grey.data.size(); ++i)
+    grey.data[i] = Grey(&pixels[i * channels], channels);
+  return grey;
+}
+
 DigitalImage ReadGrey(const fs::path& file) {
   auto input = Open(file);
   const OIIO::ImageSpec& spec = input->spec();
@@ -198,8 +233,7 @@ DigitalImage ReadGrey(const fs::path& file) {
   }
   const float full_scale = image.bits == 8 ? 255.0f : 65535.0f;
   for (size_t i = 0; i < image.dn.data.size(); ++i) {
-    const float* p = &pixels[i * channels];
-    const float grey = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
+    const float grey = Grey(&pixels[i * channels], channels);
     image.dn.data[i] =
         static_cast<uint16_t>(std::lround(std::clamp(grey, 0.0f, 1.0f) * full_scale));
   }

@@ -38,6 +38,11 @@ void WritePng(const std::filesystem::path& file, const DigitalImage& image);
 // bits, all others 16. InputError if the file is not a picture.
 DigitalImage ReadGrey(const std::filesystem::path& file);
 
+// A picture file in memory as grey of linear light: integer pixels are taken to be sRGB, floating-
+// point ones to be linear; colours by the Rec. 709 luminance. InputError that begins with `file` if
+// the bytes are no picture.
+FloatPlane DecodeLinearGrey(const std::string& bytes, const std::filesystem::path& file);
+
 // 8-bit RGB, three numbers a pixel, for pictures that people look at.
 void WriteRgbPng(const std::filesystem::path& file, int width, int height,
                  const std::vector<uint8_t>& rgb);

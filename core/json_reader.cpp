@@ -133,6 +133,16 @@ std::string JsonReader::String(const std::string& key, const std::string& fallba
   return Has(key) ? String(key) : fallback;
 }
 
+std::string JsonReader::PathBelow(const std::string& key) {
+  const JsonReader node = Child(key);
+  const std::filesystem::path path = node.AsString();
+  const std::filesystem::path normal = path.lexically_normal();
+  if (path.empty() || path.is_absolute() || *normal.begin() == "..") {
+    node.Fail('"' + path.string() + '"', "a relative path that does not leave its folder");
+  }
+  return normal.string();
+}
+
 std::string JsonReader::Choice(const std::string& key, const std::vector<std::string>& names) {
   const JsonReader child = Child(key);
   const std::string value = child.AsString();

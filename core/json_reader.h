@@ -37,6 +37,8 @@ class JsonReader {
   std::string String(const std::string& key, const std::string& fallback);
   // One of `names`; the error lists them.
   std::string Choice(const std::string& key, const std::vector<std::string>& names);
+  // A path to something below a folder: not absolute, no way out by "..". Normalised.
+  std::string PathBelow(const std::string& key);
   Vec3d Vector3(const std::string& key);
   Vec3d Vector3(const std::string& key, const Vec3d& fallback);
   // The document must say "schema": name. A "$schema" key for editors may stand beside it.

@@ -10,9 +10,14 @@ struct Entry {
 };
 
 constexpr Entry kBsdfs[] = {
-    {"absorber", MakeAbsorber},          {"coated_diffuse", MakeCoatedDiffuse},
-    {"conductor", MakeConductor},        {"diffuse", MakeDiffuse},
-    {"retro_table", MakeRetroTable},     {"retroreflector", MakeRetroreflector},
+    {"absorber", MakeAbsorber},
+    {"back_vector", MakeBackVector},
+    {"blend", MakeBlend},
+    {"coated_diffuse", MakeCoatedDiffuse},
+    {"conductor", MakeConductor},
+    {"diffuse", MakeDiffuse},
+    {"retro_table", MakeRetroTable},
+    {"retroreflector", MakeRetroreflector},
     {"rough_diffuse", MakeRoughDiffuse},
 };
 

@@ -6,6 +6,8 @@
 namespace retrolux {
 
 std::shared_ptr<const Bsdf> MakeAbsorber(JsonReader& json);
+std::shared_ptr<const Bsdf> MakeBackVector(JsonReader& json);
+std::shared_ptr<const Bsdf> MakeBlend(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeCoatedDiffuse(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeConductor(JsonReader& json);
 std::shared_ptr<const Bsdf> MakeDiffuse(JsonReader& json);

@@ -1,10 +1,18 @@
 #include "materials/material_library.h"
 
+#include <algorithm>
+
+#include "core/atomic_file.h"
 #include "core/data_path.h"
 
 namespace retrolux {
 
 namespace {
+
+constexpr const char* kTextureKey = "reflectance_texture";
+// What has a reflectance to be textured.
+const std::vector<std::string> kTextured = {"coated_diffuse", "conductor", "diffuse",
+                                            "rough_diffuse"};
 
 JsonReader Library() {
   static const JsonReader library = JsonReader::FromFile(DataPath("materials/data/library.json"));
@@ -17,8 +25,32 @@ JsonReader Library() {
 
 }  // namespace
 
+nlohmann::json ExportedSpec(const Material& material) {
+  nlohmann::json spec = material.spec;
+  if (material.texture) spec[kTextureKey] = material.texture->FileName();
+  return spec;
+}
+
 Material ReadMaterial(const std::string& name, const JsonReader& json) {
-  return {name, json.Raw(), MakeBsdf(json)};
+  JsonReader keys = json;
+  if (!keys.Has(kTextureKey)) return {name, json.Raw(), MakeBsdf(json), nullptr, nullptr};
+  const std::filesystem::path file = json.File().parent_path() / keys.PathBelow(kTextureKey);
+  return TexturedMaterial(name, json, std::make_shared<Texture>(file, ReadTextFile(file)));
+}
+
+Material TexturedMaterial(const std::string& name, const JsonReader& json,
+                          std::shared_ptr<const Texture> texture) {
+  JsonReader keys = json;
+  const std::string type = keys.String("type");
+  if (std::find(kTextured.begin(), kTextured.end(), type) == kTextured.end()) {
+    keys.Child("type").Fail(fmt::format("a texture on '{}'", type),
+                            fmt::format("one of {}", JoinNames(kTextured)));
+  }
+  nlohmann::json dark = json.Raw();
+  dark.erase(kTextureKey);
+  dark["reflectance"] = 0.0;
+  return {name, json.Raw(), MakeBsdf(json), std::move(texture),
+          MakeBsdf(JsonReader::FromText(dark.dump(), json.File()))};
 }
 
 Material LibraryMaterial(const std::string& name) {

@@ -98,6 +98,13 @@ CameraResponse::Band CameraResponse::MakeBand(const Spectrum& emission,
     sum += value;
     band.cumulative.push_back(static_cast<float>(total > 0.0 ? sum / total : 1.0));
   }
+  int cell = 0;
+  for (int i = 0; i < kGuides; ++i) {
+    while (cell < kCells - 1 &&
+           band.cumulative[static_cast<size_t>(cell)] <= static_cast<float>(i) / kGuides)
+      ++cell;
+    band.first_cell.push_back(cell);
+  }
   for (int i = 0; i < kCells; ++i) {
     const double d = density[static_cast<size_t>(i)];
     const double emitted = static_cast<double>(emission.At(static_cast<float>(CellCentre(i))));
@@ -116,10 +123,9 @@ Spectral CameraResponse::SampleWavelengths(float u, float cos_theta) const {
   const std::vector<Band>& bands = BandsAt(cos_theta);
   Spectral nm = Spectral::Constant(static_cast<float>(kMinWavelength_nm));
   for (size_t k = 0; k < bands.size(); ++k) {
-    const std::vector<float>& cumulative = bands[k].cumulative;
-    const auto cell = std::min<ptrdiff_t>(
-        std::upper_bound(cumulative.begin(), cumulative.end(), u) - cumulative.begin(), kCells - 1);
-    nm[static_cast<Eigen::Index>(k)] = static_cast<float>(CellCentre(static_cast<int>(cell)));
+    int cell = bands[k].first_cell[static_cast<size_t>(u * kGuides)];
+    while (cell < kCells - 1 && bands[k].cumulative[static_cast<size_t>(cell)] <= u) ++cell;
+    nm[static_cast<Eigen::Index>(k)] = static_cast<float>(CellCentre(cell));
   }
   return nm;
 }

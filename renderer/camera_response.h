@@ -48,9 +48,12 @@ class CameraResponse {
 
   static constexpr int kAngles = 64;  // steps of equal sin^2, in which the band shifts evenly
 
+  static constexpr int kGuides = 256;
+
   // The density over wavelength of one spectrum, for one step of the field angle.
   struct Band {
     std::vector<float> cumulative;             // over 1 nm cells, ends at 1
+    std::vector<int> first_cell;               // from which to look for u in [i, i + 1) / kGuides
     std::vector<float> emission_over_density;  // at the cell centres
   };
   Band MakeBand(const Spectrum& emission, const std::vector<double>& transmission) const;

@@ -32,8 +32,11 @@ void Film::Set(int x, int y, const PixelEstimate& estimate) {
   }
 }
 
-Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
-                std::vector<std::string> group_names, Progress& progress) {
+namespace {
+
+template <typename Estimate>
+Film RenderTiles(const CameraModel& camera, std::vector<std::string> group_names,
+                 Progress& progress, Estimate estimate) {
   constexpr int kTile = 16;
   Film film(camera.width, camera.height, std::move(group_names));
   const int columns = (camera.width + kTile - 1) / kTile;
@@ -44,11 +47,25 @@ Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
     const int x1 = std::min(x0 + kTile, camera.width);
     const int y1 = std::min(y0 + kTile, camera.height);
     for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) film.Set(x, y, tracer.EstimatePixel(x, y));
+      for (int x = x0; x < x1; ++x) film.Set(x, y, estimate(x, y));
     }
     progress.Advance(static_cast<int64_t>(x1 - x0) * (y1 - y0));
   });
   return film;
+}
+
+}  // namespace
+
+Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
+                std::vector<std::string> group_names, Progress& progress) {
+  return RenderTiles(camera, std::move(group_names), progress,
+                     [&](int x, int y) { return tracer.EstimatePixel(x, y); });
+}
+
+Film RenderFilm(const PathTracer& tracer, const CameraModel& camera, const Plane<int>& samples,
+                std::vector<std::string> group_names, Progress& progress) {
+  return RenderTiles(camera, std::move(group_names), progress,
+                     [&](int x, int y) { return tracer.EstimatePixel(x, y, samples(x, y)); });
 }
 
 }  // namespace retrolux

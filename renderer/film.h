@@ -25,4 +25,8 @@ struct Film {
 Film RenderFilm(const PathTracer& tracer, const CameraModel& camera,
                 std::vector<std::string> group_names, Progress& progress);
 
+// The same with samples[i] paths for pixel i.
+Film RenderFilm(const PathTracer& tracer, const CameraModel& camera, const Plane<int>& samples,
+                std::vector<std::string> group_names, Progress& progress);
+
 }  // namespace retrolux

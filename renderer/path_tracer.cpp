@@ -2,6 +2,7 @@
 
 #include "core/hash.h"
 #include "core/sampling.h"
+#include "materials/blend.h"
 
 namespace retrolux {
 
@@ -10,7 +11,7 @@ struct PathTracer::Vertex {
   Vec3f position, geometric_normal;
   Frame frame;
   Vec3f wo;  // local, towards where the path came from
-  const Bsdf* bsdf = nullptr;
+  BsdfBlend bsdf;
   uint32_t marker = 0;
 };
 
@@ -27,23 +28,36 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& l
       options_(options),
       image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))) {
   for (const SceneObject& object : scene_.objects)
-    bsdf_of_object_.push_back(scene_.materials.at(object.material).bsdf.get());
+    material_of_object_.push_back(&scene_.materials.at(object.material));
 }
+
+namespace {
+
+BsdfBlend BsdfAt(const Material& material, const Vec2f& uv) {
+  if (!material.texture) return {material.bsdf.get(), nullptr, 1.0f};
+  return {material.bsdf.get(), material.dark.get(), material.texture->At(uv)};
+}
+
+}  // namespace
 
 PathTracer::Vertex PathTracer::MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const {
   // Near the limb the interpolated normal may face away from the ray; the triangle's own never
   // does.
   const bool smooth = hit.shading_normal.dot(direction) < 0.0f;
   const Vec3f& normal = smooth ? hit.shading_normal : hit.geometric_normal;
-  Vertex vertex{hit.position,  hit.geometric_normal,      Frame(normal),
-                Vec3f::Zero(), bsdf_of_object_[hit.body], 0};
+  Vertex vertex{hit.position,
+                hit.geometric_normal,
+                Frame(normal),
+                Vec3f::Zero(),
+                BsdfAt(*material_of_object_[hit.body], hit.uv),
+                0};
   vertex.wo = vertex.frame.LocalFromWorld(-direction);
   for (const PlacedMarker& marker : markers_) {
     if (marker.object != hit.body) continue;
     const std::optional<Vec2d> place =
         marker.Locate(hit.position.cast<double>(), hit.geometric_normal.cast<double>());
     if (!place || !marker.IsBright(*place)) continue;
-    vertex.bsdf = marker.bright.get();
+    vertex.bsdf = {marker.bright.get(), nullptr, 1.0f};
     vertex.marker = marker.instance;
     break;
   }
@@ -63,7 +77,7 @@ void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, con
     if (!light || light->direction.dot(vertex.geometric_normal) <= 0.0f) continue;
     const Vec3f wi = vertex.frame.LocalFromWorld(light->direction);
     const int k = lights_.SpectrumOf(group);
-    const BsdfValue value = vertex.bsdf->Evaluate(vertex.wo, wi, nm);
+    const BsdfValue value = vertex.bsdf.Evaluate(vertex.wo, wi, nm);
     const float share = PowerHeuristic(light->pdf, value.pdf);
     unshadowed[group] = throughput[k] * value.f_cos[k] * light->radiance / light->pdf * share;
     targets[static_cast<size_t>(group)] = light->position;
@@ -117,7 +131,7 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
 
     const float lobe = sampler.Next1D();
     const std::optional<BsdfSample> next =
-        vertex.bsdf->Sample(vertex.wo, lobe, sampler.Next2D(), nm);
+        vertex.bsdf.Sample(vertex.wo, lobe, sampler.Next2D(), nm);
     if (!next) break;
     direction = vertex.frame.WorldFromLocal(next->wi);
     if (direction.dot(vertex.geometric_normal) <= 0.0f) break;
@@ -178,13 +192,13 @@ std::optional<LensRays::LensRay> PathTracer::SampleLens(int x, int y, PixelSampl
   return lens_.Through(px, lens_.HasAperture() ? sampler.Next2D() : Vec2f::Zero());
 }
 
-PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
+PixelEstimate PathTracer::EstimatePixel(int x, int y, int samples) const {
   const uint64_t pixel_key =
       CombineKeys(image_key_, static_cast<uint64_t>(y) << 32 | static_cast<uint64_t>(x));
   Eigen::Array<double, kMaxLightGroups, 1> sums = Eigen::Array<double, kMaxLightGroups, 1>::Zero();
   double sum = 0.0, sum2 = 0.0, radiance = 0.0;
   CoverageSum coverage;
-  for (int s = 0; s < options_.samples_per_pixel; ++s) {
+  for (int s = 0; s < samples; ++s) {
     PixelSampler sampler(pixel_key, static_cast<uint32_t>(s));
     const std::optional<LensRays::LensRay> ray = SampleLens(x, y, sampler);
     if (!ray) continue;  // a sample that brings no light
@@ -203,7 +217,7 @@ PixelEstimate PathTracer::EstimatePixel(int x, int y) const {
     sum2 += total * total;
     coverage.Add(path.marker, static_cast<float>(total));
   }
-  const double n = options_.samples_per_pixel;
+  const double n = samples;
   PixelEstimate estimate;
   estimate.electrons = (sums / n).cast<float>();
   if (n > 1.0)

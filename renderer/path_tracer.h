@@ -52,7 +52,10 @@ class PathTracer {
 
   // The pixel's box of one by one px, as the lens draws it (all but LensScatter). Depends on
   // nothing but the scene, the seed and (x, y).
-  PixelEstimate EstimatePixel(int x, int y) const;
+  PixelEstimate EstimatePixel(int x, int y) const {
+    return EstimatePixel(x, y, options_.samples_per_pixel);
+  }
+  PixelEstimate EstimatePixel(int x, int y, int samples) const;
 
   // Band radiance by light group along a ray, one sample, with the marker that it meets first (0:
   // none).
@@ -80,7 +83,7 @@ class PathTracer {
   const std::vector<PlacedMarker>& markers_;
   TraceOptions options_;
   uint64_t image_key_;
-  std::vector<const Bsdf*> bsdf_of_object_;
+  std::vector<const Material*> material_of_object_;
 };
 
 }  // namespace retrolux

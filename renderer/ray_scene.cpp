@@ -2,10 +2,12 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "core/parallel.h"
+#include "scenes/marker_placement.h"
 
 namespace retrolux {
 
@@ -16,13 +18,49 @@ void OnEmbreeError(void*, RTCError code, const char* message) {
   throw std::logic_error(fmt::format("Embree error {}: {}", static_cast<int>(code), message));
 }
 
+// The holes of a perforated object, some of them closed by markers.
+struct Holes {
+  HolePattern pattern;
+  RigidTransform object_from_world;
+  std::vector<PlacedMarker> covers;
+
+  // x, direction, outward normal in the world.
+  bool LetPass(const Vec3d& x, const Vec3d& direction, const Vec3d& normal) const {
+    const Mat3d& turn = object_from_world.rotation;
+    if (!pattern.LetsPass(object_from_world * x, turn * direction, turn * normal)) return false;
+    return std::none_of(covers.begin(), covers.end(), [&](const PlacedMarker& marker) {
+      const std::optional<Vec2d> place = marker.Locate(x, normal);
+      return place && (marker.dark || marker.IsBright(*place));
+    });
+  }
+};
+
 // A mesh as Embree holds it, with what Embree does not hold.
 struct Body {
   std::string name;
   std::vector<Vec3f> normals;  // world, per vertex; empty: flat
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<Vec3f> positions;
+  std::vector<Vec2f> uvs;  // none, or per vertex
+  std::unique_ptr<Holes> holes;
 };
+
+// Embree's filter function: hits where the sheet has a hole are none.
+void PassHoles(const RTCFilterFunctionNArguments* query) {
+  const auto& holes = *static_cast<const Holes*>(query->geometryUserPtr);
+  for (unsigned int i = 0; i < query->N; ++i) {
+    if (query->valid[i] != -1) continue;
+    const RTCRay ray = rtcGetRayFromRayN(query->ray, query->N, i);
+    const RTCHit hit = rtcGetHitFromHitN(query->hit, query->N, i);
+    const Vec3f direction(ray.dir_x, ray.dir_y, ray.dir_z);
+    const Vec3f x = Vec3f(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * direction;
+    const Vec3f normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    if (holes.LetPass(x.cast<double>(), direction.cast<double>().normalized(),
+                      normal.cast<double>().normalized())) {
+      query->valid[i] = 0;
+    }
+  }
+}
 
 template <typename T>
 T* NewBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, size_t count) {
@@ -56,8 +94,9 @@ struct RayScene::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void AddTriangles(const std::string& name, const TriangleMesh& mesh,
-                    const RigidTransform& world_from_object) {
-    Body body{name, {}, mesh.triangles, {}};
+                    const RigidTransform& world_from_object,
+                    const std::optional<Perforation>& perforation = std::nullopt) {
+    Body body{name, {}, mesh.triangles, {}, mesh.uvs, nullptr};
     for (const Vec3f& p : mesh.positions)
       body.positions.push_back((world_from_object * p.cast<double>()).cast<float>());
     for (const Vec3f& n : mesh.normals) {
@@ -70,6 +109,13 @@ struct RayScene::Impl {
     auto* indices = NewBuffer<std::array<uint32_t, 3>>(geometry, RTC_BUFFER_TYPE_INDEX,
                                                        RTC_FORMAT_UINT3, body.triangles.size());
     std::copy(body.triangles.begin(), body.triangles.end(), indices);
+    if (perforation) {
+      body.holes = std::make_unique<Holes>(
+          Holes{HolePattern(*perforation), world_from_object.Inverse(), {}});
+      rtcSetGeometryUserData(geometry, body.holes.get());
+      rtcSetGeometryIntersectFilterFunction(geometry, PassHoles);
+      rtcSetGeometryOccludedFilterFunction(geometry, PassHoles);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tree, geometry, static_cast<uint32_t>(bodies.size()));
     rtcReleaseGeometry(geometry);
@@ -89,6 +135,14 @@ struct RayScene::Impl {
       }
     }
     AddTriangles("ring-" + camera.model.name, mesh, {});
+  }
+
+  void CoverHoles(const Scene& scene) {
+    for (size_t i = 0; i < scene.markers.size(); ++i) {
+      const PlacedMarker marker =
+          PlaceMarker(scene, scene.markers[i], static_cast<uint32_t>(i + 1));
+      if (Body& body = bodies[marker.object]; body.holes) body.holes->covers.push_back(marker);
+    }
   }
 
   SurfaceHit Resolve(const Vec3f& origin, const Vec3f& direction, uint32_t body_id,
@@ -112,6 +166,9 @@ struct RayScene::Impl {
           ((1.0f - u - v) * body.normals[t[0]] + u * body.normals[t[1]] + v * body.normals[t[2]])
               .normalized();
     }
+    if (!body.uvs.empty()) {
+      hit.uv = (1.0f - u - v) * body.uvs[t[0]] + u * body.uvs[t[1]] + v * body.uvs[t[2]];
+    }
     if (hit.geometric_normal.dot(direction) > 0.0f) hit.geometric_normal = -hit.geometric_normal;
     if (hit.shading_normal.dot(hit.geometric_normal) < 0.0f)
       hit.shading_normal = -hit.shading_normal;
@@ -121,7 +178,7 @@ struct RayScene::Impl {
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   for (const SceneObject& object : scene.objects)
-    impl_->AddTriangles(object.name, object.mesh, object.world_from_object);
+    impl_->AddTriangles(object.name, object.mesh, object.world_from_object, object.perforation);
   impl_->objects = static_cast<uint32_t>(scene.objects.size());
   for (const CameraSpec& camera : scene.cameras) {
     if (!camera.ring) continue;
@@ -146,6 +203,7 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   // (Embree's own option for that would limit the whole process.)
   const LimitThreads one(1);
   rtcCommitScene(impl_->tree);
+  impl_->CoverHoles(scene);
 }
 
 RayScene::~RayScene() = default;

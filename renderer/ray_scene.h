@@ -16,6 +16,7 @@ struct SurfaceHit {
   Vec3f position;
   Vec3f geometric_normal;
   Vec3f shading_normal;
+  Vec2f uv = Vec2f::Zero();  // texture coordinates, where the mesh has some
   // Index of what was hit: first the objects of the scene, then the rings (in the order of the
   // cameras that have one), then the light panels as one.
   uint32_t body = 0;
@@ -25,7 +26,8 @@ struct SurfaceHit {
 
 class RayScene {
  public:
-  // Builds the acceleration structure; nothing of `scene` is needed afterwards.
+  // Builds the acceleration structure; nothing of `scene` is needed afterwards. Rays pass through
+  // the holes of perforated objects, but for those under the scene's markers.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(RayScene&&) noexcept;

@@ -95,6 +95,7 @@ ExrImage ShotExr(const CameraSpec& camera, const IdBuffers& ids, const Film* fil
   attributes["retrolux/seed"] = std::to_string(info.seed);
   attributes["retrolux/noise_seed"] = std::to_string(info.noise_seed);
   attributes["retrolux/spp"] = std::to_string(info.samples_per_pixel);
+  attributes["retrolux/edge_spp"] = std::to_string(info.edge_samples_per_pixel);
   attributes["retrolux/exposure_s"] = fmt::format("{}", info.exposure_s);
   return image;
 }

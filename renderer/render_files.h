@@ -13,6 +13,7 @@ struct ShotInfo {
   uint64_t seed = 1;
   uint64_t noise_seed = 1;
   int samples_per_pixel = 0;
+  int edge_samples_per_pixel = 0;  // of EdgePixels
   double exposure_s = 0.0;
 };
 

@@ -25,6 +25,10 @@ const std::vector<BuiltInEntry>& BuiltInScenes() {
        "10 x 7 squares of 30 mm for calibration, one wide camera with lens distortion",
        ChessboardScene},
       {"flat-field", "an even wall of radiance 1 W/(m2 sr) in front of one camera", FlatFieldScene},
+      {"goniometer",
+       "retro-reflective sheeting, a lamp and receivers at four observation angles, 15 m away as "
+       "in ASTM E810",
+       GoniometerScene},
   };
   return scenes;
 }

@@ -24,8 +24,9 @@ Scene SphereScene();
 Scene FaceScene();
 Scene BodyScene();
 Scene VaultRoom();
-// For measuring cameras.
+// For measuring.
 Scene ChessboardScene();
 Scene FlatFieldScene();
+Scene GoniometerScene();
 
 }  // namespace retrolux

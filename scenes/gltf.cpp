@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scenes/gltf_material.h"
 
 namespace retrolux {
 
@@ -37,6 +38,7 @@ TriangleMesh WithFlatNormals(const TriangleMesh& mesh) {
     const auto first = static_cast<uint32_t>(flat.positions.size());
     flat.positions.insert(flat.positions.end(), {p, q, r});
     flat.normals.insert(flat.normals.end(), 3, normal);
+    if (!mesh.uvs.empty()) flat.uvs.insert(flat.uvs.end(), {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]});
     flat.triangles.push_back({first, first + 1, first + 2});
   }
   return flat;
@@ -62,7 +64,8 @@ class MeshGatherer {
   void Visit(size_t index, const Eigen::Affine3d& file_from_node) {
     const GltfNode& node = model_.nodes[index];
     if (node.mesh) {
-      for (const TriangleMesh& part : model_.meshes[*node.mesh]) Add(node, part, file_from_node);
+      for (const GltfPrimitive& part : model_.meshes[*node.mesh])
+        Add(node, part.mesh, file_from_node);
     }
     for (const size_t child : node.children) {
       Visit(child, file_from_node * model_.nodes[child].parent_from_node);
@@ -70,10 +73,14 @@ class MeshGatherer {
   }
 
   TriangleMesh Take() {
-    bool smooth = false;
-    for (const TriangleMesh& part : parts_) smooth |= !part.normals.empty();
+    bool smooth = false, textured = true;
+    for (const TriangleMesh& part : parts_) {
+      smooth |= !part.normals.empty();
+      textured &= !part.uvs.empty();
+    }
     TriangleMesh all;
     for (TriangleMesh& part : parts_) {
+      if (!textured) part.uvs.clear();
       if (smooth && part.normals.empty()) part = WithFlatNormals(part);
       if (all.positions.empty()) {
         all = std::move(part);
@@ -203,6 +210,16 @@ TriangleMesh GltfFile::NodeMesh(const std::string& name, MeshFrame frame, UpAxis
   MeshGatherer gatherer(model_, up);
   gatherer.Visit(placed.index, placed.file_from_node);
   return gatherer.Take();
+}
+
+Material GltfFile::MeshMaterial() const {
+  return SharedGltfMaterial(model_, model_.roots, "");
+}
+
+Material GltfFile::NodeMaterial(const std::string& name) const {
+  const PlacedNode placed = FindMeshNode(model_, name);
+  return SharedGltfMaterial(model_, std::span(&placed.index, 1),
+                            PlaceOf(model_.nodes[placed.index]));
 }
 
 std::vector<CameraModel> GltfFile::Cameras(UpAxis up) const {

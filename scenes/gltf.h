@@ -1,4 +1,4 @@
-// Geometry and cameras from and to glTF 2.0 (.glb, .gltf).
+// Geometry, materials and cameras from and to glTF 2.0 (.glb, .gltf).
 //
 // glTF is metres, y up, front +z; its cameras look along -z with y up. Our worlds are mm, x or z
 // up. The map between them is GltfFromWorld, a proper rotation that only exchanges axes and signs,
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "materials/material_library.h"
 #include "scenes/gltf_model.h"
 #include "scenes/mesh.h"
 #include "scenes/up_axis.h"
@@ -46,6 +47,10 @@ class GltfFile {
   // The meshes of the node of that name and of its children. InputError that lists the nodes with
   // meshes.
   TriangleMesh NodeMesh(const std::string& node, MeshFrame frame, UpAxis up) const;
+  // The material of Mesh or NodeMesh, under its name in the file. InputError if they have none, or
+  // several (see gltf_material.h).
+  Material MeshMaterial() const;
+  Material NodeMaterial(const std::string& node) const;
   // The perspective cameras. A file that we wrote gives the camera matrix back exactly; for others
   // pixels are square and the picture is 640 wide.
   std::vector<CameraModel> Cameras(UpAxis up) const;
@@ -54,7 +59,8 @@ class GltfFile {
   GltfModel model_;
 };
 
-// One .glb: a node for each object (mesh and approximate colour), camera and marker.
+// One .glb: a node for each object (mesh and material), camera and marker. Materials are written as
+// glTF has them (gltf_surface.h), and whole in extras.retrolux.
 void WriteGlb(const Scene& scene, UpAxis up, const std::filesystem::path& file);
 
 }  // namespace retrolux

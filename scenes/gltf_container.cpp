@@ -78,7 +78,7 @@ void CheckJsonDepth(const fs::path& file, const std::string& json) {
 
 }  // namespace
 
-bool CheckGltfContainer(const fs::path& file, const std::string& bytes) {
+GltfContainer OpenGltfContainer(const fs::path& file, const std::string& bytes) {
   const bool glb = bytes.starts_with("glTF");
   if (!glb && file.extension() != ".gltf") {
     throw InputError::At(file, "header", "no \"glTF\" in the first four bytes",
@@ -88,8 +88,9 @@ bool CheckGltfContainer(const fs::path& file, const std::string& bytes) {
     throw InputError::At(file, "", fmt::format("a file of {} bytes", bytes.size()),
                          "less than 4 GiB");
   }
-  CheckJsonDepth(file, glb ? CheckedGlbJson(file, bytes) : bytes);
-  return glb;
+  GltfContainer container = {glb, glb ? CheckedGlbJson(file, bytes) : bytes};
+  CheckJsonDepth(file, container.json);
+  return container;
 }
 
 }  // namespace retrolux

@@ -6,9 +6,13 @@
 
 namespace retrolux {
 
-// Whether the bytes are a GLB file (else they are the JSON of a .gltf file). InputError if they are
-// neither, if header and chunks do not fit the size of the file, or if the JSON is nested absurdly
-// deep.
-bool CheckGltfContainer(const std::filesystem::path& file, const std::string& bytes);
+struct GltfContainer {
+  bool binary;       // a GLB file; else the JSON of a .gltf file
+  std::string json;  // its text
+};
+
+// InputError if the bytes are neither, if header and chunks do not fit the size of the file, or if
+// the JSON is nested absurdly deep.
+GltfContainer OpenGltfContainer(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace retrolux

@@ -3,11 +3,12 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "scenes/gltf_container.h"
+#include "scenes/gltf_load.h"
+#include "scenes/gltf_mesh.h"
 
 namespace retrolux {
 
@@ -16,79 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kMaxTreeDepth = 64;
-
-// What the loader may read beside the file: only what lies in its folder or below.
-struct FileAccess {
-  fs::path folder;
-  std::string refused;
-
-  bool Allows(const fs::path& path) {
-    const fs::path relative = path.lexically_normal().lexically_relative(folder);
-    const bool inside = !relative.empty() && *relative.begin() != "..";
-    if (!inside && path.is_absolute()) refused = path.filename().string();
-    return inside;
-  }
-};
-
-bool AllowedFileExists(const std::string& path, void* user) {
-  return static_cast<FileAccess*>(user)->Allows(path) && fs::is_regular_file(path);
-}
-
-std::string SamePath(const std::string& path, void*) {
-  return path;
-}
-
-bool ReadAllowedFile(std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                     void* user) {
-  if (!static_cast<FileAccess*>(user)->Allows(path)) return false;
-  try {
-    const std::string bytes = ReadTextFile(path);
-    out->assign(bytes.begin(), bytes.end());
-    return true;
-  } catch (const InputError& reason) {
-    *error = reason.what();
-    return false;
-  }
-}
-
-// Pictures are of no use to us, and decoding them is work that a hostile file could multiply.
-bool SkipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-               const unsigned char*, int, void*) {
-  return true;
-}
-
-std::string FirstLine(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
-tinygltf::Model Load(const fs::path& file) {
-  const std::string bytes = ReadTextFile(file);
-  const bool glb = CheckGltfContainer(file, bytes);
-  FileAccess access{fs::absolute(file).parent_path().lexically_normal(), ""};
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(SkipImage, nullptr);
-  loader.SetFsCallbacks({AllowedFileExists, SamePath, ReadAllowedFile, nullptr, &access});
-  tinygltf::Model model;
-  std::string error, warning;
-  bool good = false;
-  try {
-    const auto size = static_cast<unsigned int>(bytes.size());
-    const std::string folder = access.folder.string();
-    good = glb ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                             reinterpret_cast<const unsigned char*>(bytes.data()),
-                                             size, folder)
-               : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
-  } catch (const std::exception& thrown) {  // wrong types and empty arrays get so far
-    error = thrown.what();
-  }
-  if (good) return model;
-  if (!access.refused.empty()) {
-    throw InputError::At(
-        file, "", fmt::format("a path to '{}' that leaves the folder of the file", access.refused),
-        "files in that folder");
-  }
-  throw InputError::At(file, "", fmt::format("cannot be read: {}", FirstLine(error)), "glTF 2.0");
-}
 
 // Makes a GltfModel of the loader's, and believes nothing.
 class Converter {
@@ -99,9 +27,17 @@ class Converter {
     CheckVersion();
     GltfModel result;
     result.file = file_;
-    for (size_t i = 0; i < model_.meshes.size(); ++i) result.meshes.push_back(ConvertMesh(i));
+    for (size_t i = 0; i < model_.meshes.size(); ++i)
+      result.meshes.push_back(ReadGltfMesh(file_, model_, i));
     for (const tinygltf::Camera& camera : model_.cameras)
       result.cameras.push_back(ConvertCamera(camera));
+    for (size_t i = 0; i < model_.images.size(); ++i) result.images.push_back(ConvertImage(i));
+    for (const tinygltf::Texture& texture : model_.textures) {
+      result.textures.push_back(
+          texture.source < 0
+              ? std::nullopt
+              : std::optional(Index("texture source", texture.source, model_.images.size())));
+    }
     for (size_t i = 0; i < model_.nodes.size(); ++i) result.nodes.push_back(ConvertNode(i));
     result.roots = CheckedRoots(result.nodes);
     return result;
@@ -114,11 +50,16 @@ class Converter {
   }
 
   size_t Index(std::string_view place, int index, size_t size) const {
-    if (index < 0 || static_cast<size_t>(index) >= size) {
-      Fail(place, fmt::format("the index {} into {} elements", index, size),
-           "an index of one of them");
-    }
-    return static_cast<size_t>(index);
+    return CheckedGltfIndex(file_, place, index, size);
+  }
+
+  GltfImage ConvertImage(size_t index) const {
+    const tinygltf::Image& image = model_.images[index];
+    const fs::path from = image.uri.starts_with("data:") ? "" : image.uri;
+    const std::string extension = from.has_extension()             ? from.extension().string()
+                                  : image.mimeType == "image/jpeg" ? ".jpg"
+                                                                   : ".png";
+    return {fmt::format("image {}{}", index, extension), {image.image.begin(), image.image.end()}};
   }
 
   void CheckVersion() const {
@@ -132,153 +73,6 @@ class Converter {
         Fail("extensionsRequired", fmt::format("'{}'", name),
              "meshes without extensions or compression");
     }
-  }
-
-  // The bytes of an accessor, all of them inside their buffer.
-  struct Elements {
-    const unsigned char* data;
-    size_t count, stride;
-    int component;
-
-    template <typename T>
-    T At(size_t i, size_t k = 0) const {  // accessors need not be aligned in memory
-      T value;
-      std::memcpy(&value, data + i * stride + k * sizeof(T), sizeof(T));
-      return value;
-    }
-  };
-
-  Elements ElementsOf(int index, const std::string& place, int type) const {
-    const tinygltf::Accessor& accessor =
-        model_.accessors[Index(place, index, model_.accessors.size())];
-    if (accessor.sparse.isSparse) Fail(place, "a sparse accessor", "a plain one");
-    if (accessor.type != type)
-      Fail(place, "an accessor of another type", type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "SCALAR");
-    const int component_size =
-        tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType));
-    if (component_size <= 0)
-      Fail(place, fmt::format("component type {}", accessor.componentType), "one of glTF 2.0");
-    const size_t element =
-        static_cast<size_t>(component_size) * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
-    const tinygltf::BufferView& view = model_.bufferViews[Index(
-        place + " bufferView", accessor.bufferView, model_.bufferViews.size())];
-    const tinygltf::Buffer& buffer =
-        model_.buffers[Index(place + " buffer", view.buffer, model_.buffers.size())];
-    if (view.byteOffset > buffer.data.size() ||
-        view.byteLength > buffer.data.size() - view.byteOffset) {
-      Fail(place,
-           fmt::format("a buffer view of {} bytes from byte {} in a buffer of {} bytes",
-                       view.byteLength, view.byteOffset, buffer.data.size()),
-           "bytes that are there");
-    }
-    const size_t stride = view.byteStride == 0 ? element : view.byteStride;
-    if (stride < element)
-      Fail(place, fmt::format("a stride of {} bytes", stride), fmt::format("at least {}", element));
-    if (accessor.count == 0) Fail(place, "an empty accessor", "at least one element");
-    const bool first_fits =
-        accessor.byteOffset <= view.byteLength && element <= view.byteLength - accessor.byteOffset;
-    if (!first_fits ||
-        accessor.count - 1 > (view.byteLength - accessor.byteOffset - element) / stride) {
-      Fail(place,
-           fmt::format("{} elements from byte {} in a buffer view of {} bytes", accessor.count,
-                       accessor.byteOffset, view.byteLength),
-           "bytes that are there");
-    }
-    return {buffer.data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride,
-            accessor.componentType};
-  }
-
-  std::vector<Vec3f> Vectors(int index, const std::string& place) const {
-    const Elements elements = ElementsOf(index, place, TINYGLTF_TYPE_VEC3);
-    if (elements.component != TINYGLTF_COMPONENT_TYPE_FLOAT)
-      Fail(place, fmt::format("component type {}", elements.component), "5126 (float)");
-    std::vector<Vec3f> vectors(elements.count);
-    for (size_t i = 0; i < elements.count; ++i) {
-      vectors[i] = {elements.At<float>(i, 0), elements.At<float>(i, 1), elements.At<float>(i, 2)};
-      if (!vectors[i].allFinite())
-        Fail(place, fmt::format("a coordinate of element {} that is not a number", i),
-             "finite numbers");
-    }
-    return vectors;
-  }
-
-  std::vector<uint32_t> Indices(int index, const std::string& place) const {
-    const Elements elements = ElementsOf(index, place, TINYGLTF_TYPE_SCALAR);
-    std::vector<uint32_t> indices(elements.count);
-    for (size_t i = 0; i < elements.count; ++i) {
-      switch (elements.component) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-          indices[i] = elements.At<uint8_t>(i);
-          break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-          indices[i] = elements.At<uint16_t>(i);
-          break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-          indices[i] = elements.At<uint32_t>(i);
-          break;
-        default:
-          Fail(place, fmt::format("component type {}", elements.component),
-               "unsigned bytes, shorts or ints");
-      }
-    }
-    return indices;
-  }
-
-  TriangleMesh ConvertPrimitive(const tinygltf::Primitive& primitive,
-                                const std::string& place) const {
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES)
-      Fail(place, fmt::format("mode {}", primitive.mode), "4 (triangles)");
-    if (!primitive.targets.empty()) Fail(place, "morph targets", "a mesh without");
-    const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end())
-      Fail(place, "no POSITION", "an accessor of positions");
-    TriangleMesh mesh;
-    mesh.positions = Vectors(position->second, place + " POSITION");
-    if (const auto normal = primitive.attributes.find("NORMAL");
-        normal != primitive.attributes.end()) {
-      mesh.normals = Vectors(normal->second, place + " NORMAL");
-      if (mesh.normals.size() != mesh.positions.size()) {
-        Fail(place + " NORMAL", fmt::format("{} normals", mesh.normals.size()),
-             fmt::format("{}, as many as positions", mesh.positions.size()));
-      }
-    }
-    AddTriangles(primitive, place + " indices", mesh);
-    return mesh;
-  }
-
-  void AddTriangles(const tinygltf::Primitive& primitive, const std::string& place,
-                    TriangleMesh& mesh) const {
-    const size_t vertices = mesh.positions.size();
-    std::vector<uint32_t> indices;
-    if (primitive.indices >= 0) {
-      indices = Indices(primitive.indices, place);
-    } else {
-      for (uint32_t i = 0; i < vertices; ++i) indices.push_back(i);
-    }
-    if (indices.size() % 3 != 0)
-      Fail(place, fmt::format("{} indices", indices.size()), "a multiple of three");
-    for (size_t i = 0; i < indices.size(); ++i) {
-      if (indices[i] >= vertices) {
-        Fail(place, fmt::format("index {} at {} with {} vertices", indices[i], i, vertices),
-             "vertices that exist");
-      }
-    }
-    for (size_t i = 0; i < indices.size(); i += 3) {
-      mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-    }
-  }
-
-  std::vector<TriangleMesh> ConvertMesh(size_t index) const {
-    const tinygltf::Mesh& mesh = model_.meshes[index];
-    const std::string name =
-        mesh.name.empty() ? fmt::format("mesh {}", index) : fmt::format("mesh '{}'", mesh.name);
-    if (mesh.primitives.empty()) Fail(name, "no primitives", "triangles");
-    std::vector<TriangleMesh> parts;
-    for (size_t i = 0; i < mesh.primitives.size(); ++i) {
-      parts.push_back(
-          ConvertPrimitive(mesh.primitives[i], fmt::format("{} primitive {}", name, i)));
-    }
-    return parts;
   }
 
   // Nothing, or exactly `count` finite numbers.
@@ -410,11 +204,23 @@ class Converter {
   const tinygltf::Model& model_;
 };
 
+std::vector<JsonReader> MaterialsOf(JsonReader json) {
+  std::vector<JsonReader> materials;
+  if (!json.Has("materials")) return materials;
+  const JsonReader array = json.Child("materials");
+  for (size_t i = 0; i < array.Size(); ++i) materials.push_back(array.Child(i));
+  return materials;
+}
+
 }  // namespace
 
 GltfModel ReadGltfModel(const fs::path& file) {
-  const tinygltf::Model model = Load(file);
-  return Converter(file, model).Convert();
+  const std::string bytes = ReadTextFile(file);
+  const GltfContainer container = OpenGltfContainer(file, bytes);
+  const tinygltf::Model model = LoadGltf(file, bytes, container.binary);
+  GltfModel result = Converter(file, model).Convert();
+  result.materials = MaterialsOf(JsonReader::FromText(container.json, file));
+  return result;
 }
 
 }  // namespace retrolux

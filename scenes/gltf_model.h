@@ -1,5 +1,6 @@
 // What we use of a glTF file, checked: every index and every range of bytes is inside its array,
-// every number is finite. Units and axes are still glTF's. gltf.h makes meshes and cameras of it.
+// every number is finite. Units and axes are still glTF's. gltf.h makes meshes and cameras of it,
+// gltf_material.h materials.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "core/camera_model.h"
+#include "core/json_reader.h"
 #include "scenes/mesh.h"
 
 namespace retrolux {
@@ -26,11 +28,25 @@ struct GltfCamera {
   std::optional<CameraModel> opencv;  // intrinsics from extras.opencv; its pose is not set
 };
 
+struct GltfPrimitive {
+  TriangleMesh mesh;
+  std::optional<size_t> material;  // none: it has none
+};
+
+// A picture file as it stands in the file or beside it, not decoded.
+struct GltfImage {
+  std::string name;  // with the extension that says what it is
+  std::string bytes;
+};
+
 struct GltfModel {
   std::filesystem::path file;
   std::vector<GltfNode> nodes;
   std::vector<size_t> roots;                       // of the default scene
-  std::vector<std::vector<TriangleMesh>> meshes;   // the primitives of each mesh
+  std::vector<std::vector<GltfPrimitive>> meshes;  // the primitives of each mesh
+  std::vector<JsonReader> materials;               // as they stand in the file, unchecked
+  std::vector<GltfImage> images;
+  std::vector<std::optional<size_t>> textures;     // the image of each; none: in another format
   std::vector<std::optional<GltfCamera>> cameras;  // nothing for an orthographic one
 };
 

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 
 #include "core/atomic_file.h"
 #include "scenes/gltf.h"
+#include "scenes/gltf_surface.h"
 #include "scenes/scene.h"
 
 namespace retrolux {
@@ -18,26 +20,42 @@ std::vector<double> List(const Vec3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// A number of a material's description, or the fallback where it is absent or the name of a table.
-double NumberOf(const Material& material, const char* key, double fallback) {
-  const auto found = material.spec.find(key);
-  return found != material.spec.end() && found->is_number() ? found->get<double>() : fallback;
+// The library's own kind of JSON.
+tinygltf::Value ValueOf(const nlohmann::json& json) {
+  if (json.is_object()) {
+    tinygltf::Value::Object object;
+    for (const auto& [key, value] : json.items()) object[key] = ValueOf(value);
+    return tinygltf::Value(object);
+  }
+  if (json.is_array()) {
+    tinygltf::Value::Array array;
+    for (const nlohmann::json& value : json) array.push_back(ValueOf(value));
+    return tinygltf::Value(array);
+  }
+  if (json.is_string()) return tinygltf::Value(json.get<std::string>());
+  if (json.is_boolean()) return tinygltf::Value(json.get<bool>());
+  if (json.is_number_integer()) return tinygltf::Value(json.get<int>());
+  return json.is_number() ? tinygltf::Value(json.get<double>()) : tinygltf::Value();
 }
 
-// What Blender shows: the diffuse colour as grey, and glTF's roughness, whose square is the GGX
-// width.
-tinygltf::Material ApproximateMaterial(const std::string& name, const Material& material) {
-  const bool absorber = material.spec.value("type", "") == "absorber";
-  const double grey =
-      absorber ? 0.0
-               : NumberOf(material, "reflectance", NumberOf(material, "diffuse_reflectance", 0.5));
-  tinygltf::Material approximate;
-  approximate.name = name;
-  approximate.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
-  approximate.pbrMetallicRoughness.metallicFactor = 0.0;
-  approximate.pbrMetallicRoughness.roughnessFactor =
-      std::sqrt(NumberOf(material, "roughness", 1.0));
-  return approximate;
+// As viewers show it, and whole for us.
+tinygltf::Material MaterialOf(const std::string& name, const Material& ours) {
+  const GltfSurface surface = NearestGltfSurface(ours.spec);
+  tinygltf::Material material;
+  material.name = name;
+  const double grey = surface.reflectance;
+  material.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
+  material.pbrMetallicRoughness.metallicFactor = surface.metallic;
+  material.pbrMetallicRoughness.roughnessFactor = surface.roughness;
+  if (surface.ior != GltfSurface{}.ior) {
+    material.extensions["KHR_materials_ior"] = ValueOf({{"ior", surface.ior}});
+  }
+  if (surface.retroreflection > 0.0) {
+    material.extensions["KHR_materials_retroreflection"] =
+        ValueOf({{"retroreflectionFactor", surface.retroreflection}});
+  }
+  material.extras = ValueOf({{"retrolux", ExportedSpec(ours)}});
+  return material;
 }
 
 class GlbWriter {
@@ -54,6 +72,7 @@ class GlbWriter {
     for (const SceneObject& object : scene_.objects) AddObject(object);
     for (const CameraSpec& camera : scene_.cameras) AddCamera(camera.model);
     for (const MarkerSpec& marker : scene_.markers) AddMarker(marker);
+    model_.extensionsUsed = {extensions_used_.begin(), extensions_used_.end()};
     if (!buffer_.data.empty()) model_.buffers.push_back(std::move(buffer_));
     std::ostringstream bytes;
     RETROLUX_CHECK(tinygltf::TinyGLTF().WriteGltfSceneToStream(
@@ -76,7 +95,9 @@ class GlbWriter {
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model_.bufferViews.size());
     accessor.componentType = component_type;
-    accessor.count = view.byteLength / (type == TINYGLTF_TYPE_VEC3 ? 12 : 4);
+    accessor.count =
+        view.byteLength /
+        static_cast<size_t>(4 * tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
     accessor.type = type;
     model_.bufferViews.push_back(view);
     model_.accessors.push_back(accessor);
@@ -96,6 +117,28 @@ class GlbWriter {
     model_.accessors.back().minValues = List(low.cast<double>());
     model_.accessors.back().maxValues = List(high.cast<double>());
     return index;
+  }
+
+  // -1 for a format that glTF does not have.
+  int AddTexture(const Texture& texture) {
+    const std::string extension = texture.File().extension().string();
+    if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return -1;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer_.data.size();
+    view.byteLength = texture.Bytes().size();
+    buffer_.data.insert(buffer_.data.end(), texture.Bytes().begin(), texture.Bytes().end());
+    buffer_.data.resize((buffer_.data.size() + 3) / 4 * 4);  // accessors begin at words
+    tinygltf::Image image;
+    image.name = texture.FileName();
+    image.mimeType = extension == ".png" ? "image/png" : "image/jpeg";
+    image.bufferView = static_cast<int>(model_.bufferViews.size());
+    model_.bufferViews.push_back(view);
+    tinygltf::Texture reference;
+    reference.source = static_cast<int>(model_.images.size());
+    model_.images.push_back(std::move(image));
+    model_.textures.push_back(reference);
+    return static_cast<int>(model_.textures.size()) - 1;
   }
 
   void AddNode(tinygltf::Node node) {
@@ -119,7 +162,16 @@ class GlbWriter {
   int MaterialIndex(const std::string& name) {
     const auto [entry, is_new] =
         material_index_.emplace(name, static_cast<int>(model_.materials.size()));
-    if (is_new) model_.materials.push_back(ApproximateMaterial(name, scene_.materials.at(name)));
+    if (is_new) {
+      const Material& material = scene_.materials.at(name);
+      model_.materials.push_back(MaterialOf(name, material));
+      if (material.texture) {
+        model_.materials.back().pbrMetallicRoughness.baseColorTexture.index =
+            AddTexture(*material.texture);
+      }
+      for (const auto& [extension, _] : model_.materials.back().extensions)
+        extensions_used_.insert(extension);
+    }
     return entry->second;
   }
 
@@ -130,6 +182,11 @@ class GlbWriter {
     primitive.attributes["POSITION"] = AddVectors(object.mesh.positions);
     if (!object.mesh.normals.empty())
       primitive.attributes["NORMAL"] = AddVectors(object.mesh.normals);
+    if (!object.mesh.uvs.empty()) {
+      primitive.attributes["TEXCOORD_0"] =
+          AddAccessor(object.mesh.uvs, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT,
+                      TINYGLTF_TARGET_ARRAY_BUFFER);
+    }
     primitive.indices =
         AddAccessor(object.mesh.triangles, TINYGLTF_TYPE_SCALAR,
                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
@@ -196,6 +253,7 @@ class GlbWriter {
   tinygltf::Model model_;
   tinygltf::Buffer buffer_;
   std::map<std::string, int> material_index_;
+  std::set<std::string> extensions_used_;
 };
 
 }  // namespace

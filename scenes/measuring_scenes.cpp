@@ -1,4 +1,4 @@
-// Scenes for measuring cameras: a chessboard and an even field.
+// Scenes for measuring: a chessboard and an even field for cameras, a goniometer for sheeting.
 #include <cmath>
 
 #include "scenes/built_in.h"
@@ -54,6 +54,41 @@ Scene FlatFieldScene() {
   scene.ambient.panels.push_back({{-500, -500, 10}, {1000, 0, 0}, {0, 1000, 0}});
   scene.exposure.time_s = 1e-3;
   scene.UseMaterial(scene.exposure.marker_material);
+  return scene;
+}
+
+// ASTM E810 at 15 m: a square of sheeting of 200 mm at an entrance angle of 5 degrees, a lamp
+// whose aperture is a tenth of a degree wide, and receivers at four observation angles in the plane
+// of lamp and normal. R_A = radiance cos(nu) d^2 / I with d = 15 m, I = 50 W/sr and nu the angle
+// between the receiver and the normal (5 degrees less the observation angle); 0.005 % lower for the
+// lamp's width.
+Scene GoniometerScene() {
+  constexpr double kDistance_mm = 15000.0, kEntrance_deg = 5.0;
+  const auto at = [](double deg) {
+    return Vec3d(kDistance_mm * std::cos(RadFromDeg(deg)), kDistance_mm * std::sin(RadFromDeg(deg)),
+                 0);
+  };
+  Scene scene;
+  scene.name = "goniometer";
+  scene.up_axis = UpAxis::kZ;
+  AddObject(scene, "sheet", RectangleMesh({0, -100, -100}, {0, 200, 0}, {0, 0, 200}), "retro_bead");
+  scene.objects[0].world_from_object.rotation =
+      Eigen::AngleAxisd(RadFromDeg(kEntrance_deg), Vec3d::UnitZ()).toRotationMatrix();
+  CameraSpec lamp = ThesisCamera("lamp", at(0.0), Vec3d::UnitZ());
+  lamp.ring = DiodeRing{};
+  lamp.ring->count = 1;
+  lamp.ring->radius_mm = 0.0;
+  lamp.ring->led_radius_mm = 0.5 * kDistance_mm * RadFromDeg(0.1);
+  lamp.ring->radiant_intensity_w_sr = 50.0;
+  for (const double observation_deg : {0.2, 0.33, 1.0, 1.5}) {
+    CameraSpec receiver = ThesisCamera(fmt::format("receiver-{:.2f}", observation_deg),
+                                       at(observation_deg), Vec3d::UnitZ());
+    receiver.model.fx = receiver.model.fy = 20000.0;
+    receiver.ring.reset();
+    scene.cameras.push_back(receiver);
+  }
+  scene.cameras.push_back(lamp);
+  scene.exposure.time_s = 1e-3;
   return scene;
 }
 

@@ -17,11 +17,13 @@ double TriangleMesh::Area() const {
 }
 
 void TriangleMesh::Append(const TriangleMesh& other) {
-  RETROLUX_CHECK(positions.empty() || normals.empty() == other.normals.empty(),
-                 "normals on one side only");
+  RETROLUX_CHECK(positions.empty() ||
+                     (normals.empty() == other.normals.empty() && uvs.empty() == other.uvs.empty()),
+                 "normals or texture coordinates on one side only");
   const auto offset = static_cast<uint32_t>(positions.size());
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
   normals.insert(normals.end(), other.normals.begin(), other.normals.end());
+  uvs.insert(uvs.end(), other.uvs.begin(), other.uvs.end());
   for (const auto& t : other.triangles)
     triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }

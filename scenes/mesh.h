@@ -11,11 +11,13 @@
 namespace retrolux {
 
 // Counter-clockwise seen from outside. `normals` are unit vectors at the vertices, as many as
-// positions, or none: then the surface is flat-shaded.
+// positions, or none: then the surface is flat-shaded. `uvs` likewise: texture coordinates
+// (materials/texture.h), as many as positions or none.
 struct TriangleMesh {
   std::vector<Vec3f> positions;  // mm
   std::vector<Vec3f> normals;
   std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<Vec2f> uvs = {};
 
   double Area() const;  // mm2
   void Append(const TriangleMesh& other);

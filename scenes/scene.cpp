@@ -171,6 +171,11 @@ void CheckObject(const Scene& scene, const SceneObject& object, const std::files
         fmt::format("a mesh of {} triangles without area", object.mesh.triangles.size()),
         "a surface");
   }
+  if (scene.materials.at(object.material).texture && object.mesh.uvs.empty()) {
+    throw InputError::At(
+        file, place, fmt::format("the textured material '{}'", object.material),
+        "a mesh with texture coordinates (glTF's TEXCOORD_0), or a material without texture");
+  }
   CheckRotation(object.world_from_object.rotation, file, place);
 }
 

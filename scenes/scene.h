@@ -14,6 +14,7 @@
 #include "materials/filter.h"
 #include "materials/material_library.h"
 #include "scenes/mesh.h"
+#include "scenes/perforation.h"
 #include "scenes/up_axis.h"
 
 namespace retrolux {
@@ -153,6 +154,7 @@ struct SceneObject {
   RigidTransform world_from_object;
   std::string material;  // name in Scene::materials
   bool moves_with_pose = false;
+  std::optional<Perforation> perforation = std::nullopt;
 };
 
 // A marker on the surface of an object.

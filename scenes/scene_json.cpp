@@ -123,6 +123,23 @@ RigidTransform ReadPlacement(JsonReader& json) {
   return placement;
 }
 
+Perforation ReadPerforation(JsonReader json) {
+  Perforation holes;
+  holes.diameter_mm = json.Number("diameter_mm", 0.01, 1000.0, holes.diameter_mm);
+  holes.pitch_mm = json.Number("pitch_mm", 0.01, 1000.0, holes.pitch_mm);
+  holes.thickness_mm = json.Number("thickness_mm", 0.0, 1000.0, holes.thickness_mm);
+  holes.axis = json.Vector3("axis", holes.axis);
+  holes.centre = Position(json, "centre_mm", holes.centre);
+  json.Finish();
+  if (!(holes.pitch_mm > holes.diameter_mm)) {
+    json.Fail(fmt::format("holes of {} mm every {} mm", holes.diameter_mm, holes.pitch_mm),
+              "a pitch_mm greater than the diameter_mm");
+  }
+  if (!(holes.axis.norm() > 1e-6))
+    json.Child("axis").Fail("no direction", "a vector with a length");
+  return holes;
+}
+
 // Reads the objects of one scene file; each glTF file is read once.
 class ObjectReader {
  public:
@@ -133,32 +150,45 @@ class ObjectReader {
     SceneObject object;
     object.name = json.String("name");
     object.world_from_object = ReadPlacement(json);
-    object.material = UsedMaterial(scene_, json, "material");
     object.moves_with_pose = json.Bool("moves_with_pose", object.moves_with_pose);
-    const std::string file = PathBelow(json, "file");
+    if (HasSome(json, "perforation"))
+      object.perforation = ReadPerforation(json.Child("perforation"));
+    const std::string file = json.PathBelow("file");
     const fs::path path = folder_ / file;
+    // A glTF file may bring its own.
+    if (json.Has("material") || !IsGltf(file))
+      object.material = UsedMaterial(scene_, json, "material");
     if (!fs::is_regular_file(path)) {
       json.Child("file").Fail(fmt::format("no file {}", Quoted(file)),
                               "a mesh file below the folder of the scene");
     }
-    object.mesh = IsGltf(file) ? ReadGltf(json, path) : ReadOther(json, path);
+    if (IsGltf(file)) {
+      ReadGltf(json, file, object);
+    } else {
+      object.mesh = ReadOther(json, path);
+    }
     return object;
   }
 
  private:
-  // Which mesh of the file, and in which frame.
-  TriangleMesh ReadGltf(JsonReader& json, const fs::path& path) {
+  // Which mesh of the file, and in which frame; its material, if the object has none yet.
+  void ReadGltf(JsonReader& json, const std::string& file, SceneObject& object) {
     const bool has_node = json.Has("node");
     const std::string node = has_node ? json.String("node") : "";
     const bool in_node = json.Has("frame") && json.Choice("frame", {"file", "node"}) == "node";
     if (in_node && !has_node)
       json.Fail("\"frame\": \"node\" without a node", "the key 'node' with its name");
     json.Finish();
-    const auto open = files_.find(path);
-    const GltfFile& geometry =
-        open != files_.end() ? open->second : files_.emplace(path, GltfFile(path)).first->second;
-    return has_node ? geometry.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
-                    : geometry.Mesh(up_);
+    const auto open = files_.find(file);
+    const GltfFile& gltf = open != files_.end()
+                               ? open->second
+                               : files_.emplace(file, GltfFile(folder_ / file)).first->second;
+    object.mesh = has_node ? gltf.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
+                           : gltf.Mesh(up_);
+    if (!object.material.empty()) return;
+    Material material = has_node ? gltf.NodeMaterial(node) : gltf.MeshMaterial();
+    object.material = material.name = fmt::format("{}:{}", file, material.name);
+    scene_.materials.emplace(object.material, std::move(material));
   }
 
   // PLY, OBJ, STL: their axes are the object's, their unit must be said.
@@ -171,7 +201,7 @@ class ObjectReader {
   Scene& scene_;
   const fs::path folder_;
   const UpAxis up_;
-  std::map<fs::path, GltfFile> files_;
+  std::map<std::string, GltfFile> files_;  // by their names in the scene file
 };
 
 // What a file says of itself: checked where wrong values would be misread.

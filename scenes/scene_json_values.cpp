@@ -4,8 +4,6 @@
 
 namespace retrolux {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr double kMaxLength_mm = 1e7;
@@ -20,19 +18,9 @@ bool HasSome(JsonReader& json, const std::string& key) {
   return json.Has(key) && !json.Child(key).Raw().is_null();
 }
 
-std::string PathBelow(JsonReader& json, const std::string& key) {
-  const JsonReader node = json.Child(key);
-  const fs::path path = node.AsString();
-  const fs::path normal = path.lexically_normal();
-  if (path.empty() || path.is_absolute() || *normal.begin() == "..") {
-    node.Fail(Quoted(path.string()), "a relative path that does not leave its folder");
-  }
-  return normal.string();
-}
-
 std::string TableName(JsonReader& json, const std::string& key, const std::string& fallback) {
   if (!json.Has(key)) return fallback;
-  const std::string name = PathBelow(json, key);
+  const std::string name = json.PathBelow(key);
   try {
     DataPath(name);
   } catch (const InputError&) {

@@ -13,9 +13,6 @@ std::string Quoted(const std::string& text);
 // Whether there is a value under `key`. Absent and null both mean none.
 bool HasSome(JsonReader& json, const std::string& key);
 
-// The string under `key`, which must name something below a folder: no absolute path, no "..".
-std::string PathBelow(JsonReader& json, const std::string& key);
-
 // A table of the data folder that exists.
 std::string TableName(JsonReader& json, const std::string& key, const std::string& fallback);
 

@@ -75,6 +75,14 @@ Json ToJson(const DefectPixels& defects) {
           {"dead_per_million", defects.dead_per_million}};
 }
 
+Json ToJson(const Perforation& holes) {
+  return {{"diameter_mm", holes.diameter_mm},
+          {"pitch_mm", holes.pitch_mm},
+          {"thickness_mm", holes.thickness_mm},
+          {"axis", ToJson(holes.axis)},
+          {"centre_mm", ToJson(holes.centre)}};
+}
+
 template <typename Option>
 Json OrNull(const std::optional<Option>& option) {
   return option ? ToJson(*option) : Json();
@@ -162,7 +170,8 @@ Json ToJson(const SceneObject& object) {
           {"material", object.material},
           {"rotation_matrix", ToJson(object.world_from_object.rotation)},
           {"translation_mm", ToJson(object.world_from_object.translation)},
-          {"moves_with_pose", object.moves_with_pose}};
+          {"moves_with_pose", object.moves_with_pose},
+          {"perforation", OrNull(object.perforation)}};
 }
 
 template <typename T>
@@ -182,8 +191,9 @@ Json Description(const Scene& scene) {
                {"cameras", Array(scene.cameras)},   {"markers", Array(scene.markers)},
                {"ambient", ToJson(scene.ambient)},  {"poses", Json::array()},
                {"exposure", ToJson(scene.exposure)}};
-  for (const auto& [name, material] : scene.materials)
-    json["materials"][name] = Json(material.spec);
+  for (const auto& [name, material] : scene.materials) {
+    json["materials"][name] = Json(ExportedSpec(material));
+  }
   for (const Pose& pose : scene.poses) json["poses"].push_back(ToJson(pose));
   return json;
 }
@@ -222,6 +232,8 @@ uint64_t HashMesh(const TriangleMesh& mesh, uint64_t hash) {
       fmt::format("{} {} {}", mesh.positions.size(), mesh.normals.size(), mesh.triangles.size()),
       hash);
   hash = HashVectors(mesh.normals, HashVectors(mesh.positions, hash));
+  const auto uvs = std::as_bytes(std::span(mesh.uvs));
+  hash = HashBytes({reinterpret_cast<const char*>(uvs.data()), uvs.size()}, hash);
   const auto indices = std::as_bytes(std::span(mesh.triangles));
   return HashBytes({reinterpret_cast<const char*>(indices.data()), indices.size()}, hash);
 }
@@ -243,6 +255,10 @@ void ExportScene(const Scene& scene, const fs::path& folder) {
     object["file"] = geometry;
     object["node"] = object["name"];
     object["frame"] = "node";
+  }
+  for (const auto& [name, material] : scene.materials) {
+    if (material.texture)
+      WriteTextFile(folder / material.texture->FileName(), material.texture->Bytes());
   }
   WriteGlb(scene, scene.up_axis, folder / geometry);
   WriteTextFile(folder / "scene.json", Pretty(json) + "\n");

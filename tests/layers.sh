@@ -30,7 +30,7 @@ forbid cli        'tests/'
 
 only 'embree3/'     renderer/ray_scene.cpp renderer/bare_embree.cpp
 only 'OpenImageIO/' core/image_file.cpp
-only 'tiny_gltf'    scenes/gltf_model.cpp scenes/gltf_write.cpp
+only 'tiny_gltf'    scenes/gltf_load.cpp scenes/gltf_mesh.cpp scenes/gltf_model.cpp scenes/gltf_write.cpp
 only 'tbb/'         core/parallel.cpp
 only 'assimp/'      scenes/mesh_import.cpp
 only 'CGAL/'        scenes/mesh_reconstruct.cpp

@@ -50,6 +50,17 @@ std::vector<NamedBsdf> AllMaterials() {
                     {"roughness": 0.4, "albedo": 0.4, "distribution": "beckmann"}]})",
       R"({"type": "retro_table", "diffuse_reflectance": 0.05, "ior": 1.0,
           "table": "materials/data/ra_prismatic_ldp3970.csv"})",
+      R"({"type": "blend", "share": 0.3,
+          "one": {"type": "retroreflector", "diffuse_reflectance": 0.0, "ior": 1.0,
+                  "lobes": [{"roughness": 0.004, "albedo": 1.0}]},
+          "zero": {"type": "blend", "share": 0.6,
+                   "one": {"type": "conductor", "reflectance": 0.9, "roughness": 0.02},
+                   "zero": {"type": "diffuse",
+                            "reflectance": "materials/data/qe_interline_ccd.csv"}}})",
+      R"({"type": "back_vector", "of": {"type": "conductor", "reflectance": 0.6,
+          "roughness": 0.01}})",
+      R"({"type": "back_vector", "of": {"type": "coated_diffuse", "reflectance": 1.0, "ior": 2.0,
+          "roughness": 0.4}})",
       R"({"type": "conductor", "reflectance": 1.0, "roughness": 1.0})",
       R"({"type": "conductor", "n": 2.8, "k": 8.5, "roughness": 0.02})",
       R"({"type": "conductor", "n": 0.2, "k": 3.0, "roughness": 0.5})",
@@ -595,9 +606,10 @@ TEST(DichroicFilter, HalfItsPeakAtTheEdgesOfItsBandAndAFloorBeyond) {
 
 TEST(BsdfFactory, ErrorsNamePlaceFoundAndExpected) {
   const auto error = [](const std::string& text) { return MessageOf([&] { FromJson(text); }); };
-  EXPECT_EQ(error(R"({"type": "velvet"})"),
-            "m.json: /type: found string \"velvet\"; expected one of absorber, coated_diffuse, "
-            "conductor, diffuse, retro_table, retroreflector, rough_diffuse");
+  EXPECT_EQ(
+      error(R"({"type": "velvet"})"),
+      "m.json: /type: found string \"velvet\"; expected one of absorber, back_vector, "
+      "blend, coated_diffuse, conductor, diffuse, retro_table, retroreflector, rough_diffuse");
   EXPECT_EQ(error(R"({"reflectance": 0.5})"), "m.json: /: found no key 'type'; expected 'type'");
   EXPECT_EQ(error(R"({"type": "diffuse", "reflectanse": 0.5})"),
             "m.json: /: found the unknown key 'reflectanse'; expected 'reflectance', perhaps");

@@ -1,0 +1,24 @@
+// The meshes of a glTF file: every index and every range of bytes is checked.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "scenes/gltf_model.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace retrolux {
+
+// `index` as one into `size` elements. InputError if it is none.
+size_t CheckedGltfIndex(const std::filesystem::path& file, std::string_view place, int index,
+                        size_t size);
+
+// The primitives of one of the model's meshes. InputError as ReadGltfModel.
+std::vector<GltfPrimitive> ReadGltfMesh(const std::filesystem::path& file,
+                                        const tinygltf::Model& model, size_t index);
+
+}  // namespace retrolux
