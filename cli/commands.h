@@ -41,6 +41,7 @@ void SetUpBench(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpDataset(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpGoniometer(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMaterial(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMask(CLI::App& app, const GlobalOptions& global, Run& run);

@@ -90,6 +90,7 @@ int main(int argc, char** argv) {
   SetUpMaterial(app, global, run);
   SetUpGoniometer(app, global, run);
   SetUpStudy(app, global, run);
+  SetUpDataset(app, global, run);
   SetUpValidate(app, global, run);
   try {
     app.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <sched.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace retrolux {
 
@@ -23,12 +24,16 @@ Progress& NoProgress() {
 }
 
 void ParallelFor(int64_t count, const std::function<void(int64_t)>& body) {
-  tbb::parallel_for(
-      tbb::blocked_range<int64_t>(0, count, 1),
-      [&](const tbb::blocked_range<int64_t>& range) {
-        for (int64_t i = range.begin(); i != range.end(); ++i) body(i);
-      },
-      tbb::simple_partitioner());
+  // Isolated: a thread that waits for the end of a loop within a loop must not begin another round
+  // of the outer one, whose memory it would hold beside its own.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int64_t>(0, count, 1),
+        [&](const tbb::blocked_range<int64_t>& range) {
+          for (int64_t i = range.begin(); i != range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+  });
 }
 
 LimitThreads::LimitThreads(int threads) {

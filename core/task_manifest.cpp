@@ -97,9 +97,14 @@ class Failures {
   std::atomic<bool> stop_ = false;
 };
 
-std::string StageText(const std::string& stage, size_t tasks, size_t missing) {
-  if (missing == tasks) return stage;
-  return fmt::format("{}, {} of {} tasks were done before", stage, tasks - missing, tasks);
+std::string StageText(const std::string& stage, size_t tasks, size_t done) {
+  if (done == 0) return stage;
+  return fmt::format("{}, {} of {} tasks were done before", stage, done, tasks);
+}
+
+size_t CountDone(const std::vector<Json>& results) {
+  return static_cast<size_t>(std::count_if(results.begin(), results.end(),
+                                           [](const Json& result) { return !result.is_null(); }));
 }
 
 }  // namespace
@@ -143,7 +148,7 @@ std::vector<Json> TaskManifest::Run(const std::string& stage, const std::vector<
     if (loop.steps_per_task == 0) progress.Advance(1);
   };
   const auto count = static_cast<int64_t>(missing.size());
-  progress.Begin(StageText(stage, tasks.size(), missing.size()),
+  progress.Begin(StageText(stage, tasks.size(), CountDone(results)),
                  count * std::max<int64_t>(loop.steps_per_task, 1), loop.unit);
   if (loop.parallel) {
     ParallelFor(count, run);
@@ -237,14 +242,17 @@ std::vector<size_t> TaskManifest::Missing(const std::vector<Entry>& entries, con
       try {
         results[i] = ReadResult(entries[i]);
         done = !loop.usable || loop.usable(results[i]);
-        if (!done) throw InputError::At(file, "", "no longer usable", "all that the task has left");
+        if (!done) {
+          results[i] = nullptr;
+          throw InputError::At(file, "", "no longer usable", "all that the task has left");
+        }
       } catch (const InputError& error) {
         report_.warnings.push_back(
             fmt::format("{}; '{}' is done again", error.what(), entries[i].name));
       }
     }
     if (!done) {
-      missing.push_back(i);
+      if (!loop.chosen || loop.chosen(i)) missing.push_back(i);
     } else if (!entries[i].again) {
       ++report_.done_before;
     }

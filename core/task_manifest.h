@@ -38,6 +38,9 @@ struct TaskLoop {
   // A result that is there, but no longer good for anything: false, and the task is done again. For
   // tasks that leave more files than their result. Null: every result is good.
   std::function<bool(const nlohmann::json& result)> usable;
+  // Which tasks this run is to do, by index; of the others the results that are there are taken,
+  // and null stands for those that are not. Null: all.
+  std::function<bool(size_t task)> chosen;
 };
 
 // What has become of the tasks of all stages so far.
@@ -62,11 +65,11 @@ class TaskManifest {
   // version of the program is added here. Makes the folder; InputError if it can't be written to.
   TaskManifest(std::filesystem::path folder, std::string study, nlohmann::json options);
 
-  // Runs those tasks of a stage that are not done and returns the results of all, in their order,
-  // as they stand in the files: the same bits whether a task was run now or before. Stages are
-  // called one after the other; the tasks of one may follow from the results of those before. Two
-  // tasks of a stage must not be defined the same; a task of an earlier stage may come again and is
-  // not run again.
+  // Runs those tasks of a stage that are not done (of those that the loop has chosen) and returns
+  // the results of all, in their order, as they stand in the files: the same bits whether a task
+  // was run now or before. Stages are called one after the other; the tasks of one may follow from
+  // the results of those before. Two tasks of a stage must not be defined the same; a task of an
+  // earlier stage may come again and is not run again.
   //
   // If a task throws, the others are still run and kept, and then the first failure is thrown on:
   // InputError and TryAgainError as such, others as std::runtime_error. Where the machine gives out

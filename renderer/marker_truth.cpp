@@ -9,16 +9,38 @@ namespace {
 constexpr int kGrid = 24;             // points an axis over the square
 constexpr double kOutlineStep = 0.5;  // mm
 
-// The surface point above or below a place in the marker's square.
+}  // namespace
+
 std::optional<SurfaceHit> OntoSurface(const RayScene& rays, const PlacedMarker& marker,
                                       const Vec2d& x_in_marker) {
+  // Through what lies over the marker: cables, plates.
+  constexpr int kMostOver = 16;
   const double reach = 2.0 * marker.half_size_mm;
-  const Vec3d start =
-      marker.marker_from_world.Inverse() * Vec3d(x_in_marker.x(), x_in_marker.y(), reach);
-  const auto hit = rays.Intersect(start.cast<float>(), (-marker.NormalInWorld()).cast<float>(),
-                                  static_cast<float>(2.0 * reach));
-  return hit && hit->body == marker.object ? hit : std::nullopt;
+  Vec3f start =
+      (marker.marker_from_world.Inverse() * Vec3d(x_in_marker.x(), x_in_marker.y(), reach))
+          .cast<float>();
+  const Vec3f down = (-marker.NormalInWorld()).cast<float>();
+  auto left = static_cast<float>(2.0 * reach);
+  for (int i = 0; i < kMostOver; ++i) {
+    const auto hit = rays.Intersect(start, down, left);
+    if (!hit || hit->body == marker.object) return hit;
+    const Vec3f behind = OffSurface(hit->position, down);
+    left -= (behind - start).norm();
+    start = behind;
+  }
+  return std::nullopt;
 }
+
+bool IsSeen(const RayScene& rays, const CameraModel& camera, const Vec3d& position,
+            const Vec3d& normal) {
+  const Vec3d eye = camera.Centre();
+  const auto px = camera.Project(position);
+  if (!px || !camera.InFrame(*px) || normal.dot(eye - position) <= 0.0) return false;
+  return !rays.Occluded(OffSurface(position.cast<float>(), normal.cast<float>()),
+                        eye.cast<float>());
+}
+
+namespace {
 
 std::vector<Vec3d> OutlineOnSurface(const RayScene& rays, const PlacedMarker& marker,
                                     const Polygon& outline, double step) {
@@ -79,13 +101,9 @@ void MeasureVisibility(const MarkerSurface& surface, const RayScene& rays,
   for (const MarkerSurface::Point& point : surface.points) {
     total += point.area_mm2;
     const auto px = camera.Project(point.position);
-    const bool inside = px && camera.InFrame(*px);
-    const bool faces = point.normal.dot(eye - point.position) > 0.0;
-    if (inside) in_frame += point.area_mm2;
-    if (faces) facing += point.area_mm2;
-    if (!inside || !faces) continue;
-    const Vec3f start = OffSurface(point.position.cast<float>(), point.normal.cast<float>());
-    if (!rays.Occluded(start, eye.cast<float>())) visible += point.area_mm2;
+    if (px && camera.InFrame(*px)) in_frame += point.area_mm2;
+    if (point.normal.dot(eye - point.position) > 0.0) facing += point.area_mm2;
+    if (IsSeen(rays, camera, point.position, point.normal)) visible += point.area_mm2;
   }
   if (total <= 0.0) return;
   view.visible_fraction = visible / total;

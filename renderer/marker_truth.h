@@ -22,6 +22,16 @@ struct MarkerSurface {
 };
 MarkerSurface SampleMarkerSurface(const RayScene& rays, const PlacedMarker& marker);
 
+// The point of the marker's object above or below a place in the marker's square, whatever else
+// lies over it; nothing off the object.
+std::optional<SurfaceHit> OntoSurface(const RayScene& rays, const PlacedMarker& marker,
+                                      const Vec2d& x_in_marker);
+
+// Whether the camera sees a point of a surface: it lies in the frame, faces the camera, and nothing
+// is in between.
+bool IsSeen(const RayScene& rays, const CameraModel& camera, const Vec3d& position,
+            const Vec3d& normal);
+
 // How a camera sees it.
 struct MarkerView {
   double visible_fraction =

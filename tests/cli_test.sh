@@ -6,6 +6,7 @@
 set -u
 [ $# -eq 1 ] && [ -x "$1" ] || { echo "usage: cli_test.sh RETROLUX_BINARY" >&2; exit 2; }
 retrolux=$(realpath "$1")
+tests=$(dirname "$(realpath "$0")")
 work=$(mktemp -d "${TMPDIR:-/tmp}/retrolux_cli.XXXXXX") || exit 2
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 2
@@ -568,8 +569,44 @@ cp stdout.txt bench.json
 holds "bench: a rate beside each limit" bench.json 'json.schema === "retrolux/bench-1" && json.rates.length === 14 && json.rates.every((r) => r.per_second > 0 && (r.limit === undefined || (r.limit_per_second > 0 && r.share > 0)))'
 refuse "bench: no time" 'seconds.*0' bad bench --seconds 0
 
+# ------------------------------------------------------------------------------------------------------------- dataset
+cat >tiny.json <<'END'
+{"schema": "retrolux/dataset-1", "name": "tiny", "licence": "CC0-1.0", "scenes": 4, "spp": 2,
+ "splits": {"train": 0.5, "test": 0.5}, "masks": [{"mesh": "oval"}, {"mesh": "face"}],
+ "views": [{"kind": "free", "cameras": 2, "distance_mm": [1200, 1600], "incidence_deg": [0, 50]}],
+ "markers": {"identifiable": 4, "standard": 2, "at_rim": 0.5},
+ "recording": {"size_px": [160, 120], "sensor": {"default": 1, "icx414al": 1}, "distortion_k1": -0.1},
+ "distractors": {"cables": {"probability": 1}, "plate": {"probability": 0.5}}}
+END
+succeed "dataset plan" dataset plan tiny.json --out whole
+[ -s whole/manifest.json ] && [ -z "$(ls whole/images)" ] && good "dataset plan: nothing rendered" ||
+  bad "dataset plan: nothing rendered" "$(ls whole whole/images | tr '\n' ' ')"
+sed 's/"standard"/"standart"/' tiny.json >wrong.json
+refuse "dataset: unknown key" '/markers: found the unknown key .standart.; expected .standard.' bad dataset plan wrong.json --out bad
+refuse "dataset run: no plan" 'no config.json; expected a folder that .retrolux dataset plan. made' bad dataset run bad
+refuse "dataset run: shard 3 of 2" '--shard 3/2: expected i/n' bad dataset run whole --shard 3/2
+refuse "dataset run: tasks" '--tasks 4-2: expected' bad dataset run whole --tasks 4-2
+refuse "dataset export: not done" 'no dataset.json; expected a dataset whose scenes are all done' bad dataset export whole --format csv
+succeed "dataset run" dataset run whole --threads 1
+holds "dataset: pictures, pixel origin" whole/dataset.json 'json.pixel_origin === "center" && json.pictures === 8 && json.scenes.length === 4 && json.markers > 8'
+succeed "dataset: plan again" dataset plan tiny.json --out shards
+for i in 2 1; do succeed "dataset run, shard $i of 2" dataset run shards --shard $i/2 --threads 2; done
+same "dataset: shards on 2 threads, the bytes of one run on 1" whole shards dataset.json contact_sheet.png $(cd whole && ls images/*.png)
+succeed "dataset status" --json dataset status shards
+cp stdout.txt status.json
+holds "dataset status: all done" status.json 'json.scenes === 4 && json.done === 4 && json.missing === 0'
+sed 's/"spp": 2/"spp": 3/' tiny.json >other.json
+run dataset plan other.json --out whole
+[ $? -eq 2 ] && grep -q 'the plan of another dataset' stderr.txt && good "dataset plan: another plan is refused" ||
+  bad "dataset plan: another plan is refused" "$(cat stderr.txt)"
+for format in coco bop csv; do succeed "dataset export $format" dataset export whole --format $format; done
+if command -v python3 >/dev/null; then
+  python3 "$tests/labels_readback.py" whole >readback.txt 2>&1 && good "dataset: labels read back by Python" ||
+    bad "dataset: labels read back by Python" "$(tail -3 readback.txt | tr '\n' ' ')"
+fi
+
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer; do
+for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

@@ -211,6 +211,41 @@ function checkVault(schemas, work) {
   checkRefused(schemas, 'solution', JSON.parse(fs.readFileSync(found, 'utf8')), BAD_SOLUTIONS);
 }
 
+/** A picture of a mask with two markers. */
+const TINY_DATASET = {
+  schema: 'retrolux/dataset-1',
+  name: 'tiny',
+  licence: 'CC0-1.0',
+  scenes: 1,
+  spp: 1,
+  masks: [{ mesh: 'oval' }],
+  views: [{ kind: 'free', distance_mm: { log: [1200, 1600] }, incidence_deg: [0, 30] }],
+  markers: { identifiable: 2, standard: [0, 1], polarity: { bright: 1, dark: 1 } },
+  recording: { size_px: [96, 72] },
+  distractors: { glints: { probability: 1 }, second_ring: { probability: 1, separation_deg: 5 } },
+};
+
+/** What is wrong with a config; makes it so. */
+const BAD_DATASETS = {
+  'no licence': (d) => delete d.licence,
+  'half a scene': (d) => (d.scenes = 0.5),
+  'no mask': (d) => (d.masks = []),
+  'an unknown kind of view': (d) => (d.views[0].kind = 'attic'),
+  'a distance in a room': (d) => (d.views[0] = { kind: 'vault', distance_mm: 1600 }),
+  'a range of three numbers': (d) => (d.recording.exposure = [1, 2, 3]),
+  'an unknown distractor': (d) => (d.distractors.dust = { probability: 1 }),
+  'glints without a probability': (d) => (d.distractors.glints = { count: 3 }),
+  'a probability of 2': (d) => (d.markers.touching = 2),
+  'an unknown sensor': (d) => (d.recording.sensor = 'film'),
+};
+
+function checkDataset(schemas, work) {
+  fs.writeFileSync(path.join(work, 'tiny-dataset.json'), JSON.stringify(TINY_DATASET));
+  run(work, 'dataset', 'plan', 'tiny-dataset.json', '--out', 'dataset');
+  run(work, 'dataset', 'run', 'dataset');
+  checkRefused(schemas, 'dataset', TINY_DATASET, BAD_DATASETS);
+}
+
 function checkOutputs(schemas, work) {
   run(work, 'render', 'oval', '--size', '64x48', '--spp', '1', '--out', 'small');
   run(work, 'render', 'oval', '--size', '64x48', '--ids-only', '--out', 'ids');
@@ -227,6 +262,7 @@ function checkOutputs(schemas, work) {
     if (output !== null) checkText(schemas, 'standard output of study markers --json', output);
   }
   checkVault(schemas, work);
+  checkDataset(schemas, work);
   const small = ['--triangles', '1280', '--sample-area', '4', '--size', '160x120'];
   const areas = run(work, 'study', 'areas', ...small, '--json', '--out', 'areas');
   if (areas !== null) checkText(schemas, 'standard output of study areas --json', areas);
@@ -289,12 +325,12 @@ function checkRefused(schemas, name, good, wrongs) {
   }
 }
 
-/** The built-in scenarios, and the vault that they share. */
+/** The built-in scenarios and the vault that they share, and the configs of datasets. */
 function checkScenarios(schemas) {
   const folder = path.join(ROOT, 'scenes', 'data');
   const read = (file) => withoutComments(fs.readFileSync(path.join(folder, file), 'utf8'));
-  const files = fs.readdirSync(path.join(folder, 'scenarios')).sort();
-  for (const file of ['vault.json', ...files.map((file) => `scenarios/${file}`)])
+  const filesOf = (name) => fs.readdirSync(path.join(folder, name)).map((file) => `${name}/${file}`);
+  for (const file of ['vault.json', ...filesOf('scenarios').sort(), ...filesOf('datasets').sort()])
     checkText(schemas, `scenes/data/${file}`, read(file));
   checkRefused(schemas, 'scenario', JSON.parse(read('vault.json')), BAD_SCENARIOS);
 }

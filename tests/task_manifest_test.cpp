@@ -269,6 +269,22 @@ TEST_F(TaskManifestTest, ProgressCountsWhatIsLeft) {
   EXPECT_EQ(pictures.done, 12);
 }
 
+TEST_F(TaskManifestTest, OnlyWhatIsChosenIsDone) {
+  TaskLoop loop;
+  loop.chosen = [](size_t task) { return task % 2 == 1; };
+  TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+  const std::vector<Json> results = manifest.Run("values", Tasks(4), Value, NoProgress(), loop);
+  EXPECT_TRUE(results[0].is_null());
+  EXPECT_EQ(results[1], Value(1));
+  EXPECT_TRUE(results[2].is_null());
+  EXPECT_EQ(manifest.Report().done_now, 2);
+
+  loop.chosen = [](size_t) { return false; };
+  TaskManifest again(folder_, "roots", {{"seed", 1}});
+  EXPECT_EQ(again.Run("values", Tasks(4), Value, NoProgress(), loop), results);
+  EXPECT_EQ(again.Report().done_before, 2);
+}
+
 TEST_F(TaskManifestTest, AFolderThatCannotBeIsRefused) {
   EXPECT_THAT(MessageOf([] { TaskManifest("/proc/no/such/place", "roots", Json::object()); }),
               HasSubstr("expected a place that can be written to"));
