@@ -87,46 +87,86 @@ std::string NameOf(const Detection& d) {
   return cv::format("%d  %.2f", *d.marker, d.confidence);
 }
 
-}  // namespace
+// The picture that the others are drawn on.
+class Ground {
+ public:
+  explicit Ground(const FloatPlane& smooth)
+      : smooth_(smooth),
+        top_(std::max(1.0f, *std::max_element(smooth.data.begin(), smooth.data.end()))) {}
 
-void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stages) {
-  const GradientField& field = stages.field;
-  const EdgeBands& bands = stages.bands;
+  Canvas Draw() const {
+    return Canvas(smooth_.width, smooth_.height,
+                  [&](int x, int y) { return Grey(std::sqrt(smooth_(x, y) / top_)); });
+  }
+
+ private:
+  const FloatPlane& smooth_;
+  float top_;
+};
+
+void WriteField(const std::filesystem::path& folder, const Ground& ground,
+                const GradientField& field, const EdgeBands& bands) {
   EnsureWritableFolder(folder);
   const int width = field.smooth.width;
   const int height = field.smooth.height;
-  const float top =
-      std::max(1.0f, *std::max_element(field.smooth.data.begin(), field.smooth.data.end()));
-  const auto picture = [&](int x, int y) { return Grey(std::sqrt(field.smooth(x, y) / top)); };
-  Canvas(width, height, picture).Write(folder / "01_picture.png");
-
+  ground.Draw().Write(folder / "01_picture.png");
   const auto slope = [&](int x, int y) {
     return Grey(field.slope(x, y) / (20.0f * kSlopeNoise * field.noise.At(x, y)));
   };
   Canvas(width, height, slope).Write(folder / "02_slope.png");
-
   Canvas(width, height, [&](int x, int y) {
     return LabelColour(bands.labels(x, y));
   }).Write(folder / "03_steep.png");
+}
 
-  Canvas outlines(width, height, picture);
+void DrawName(Canvas& names, const Detection& d) {
+  const cv::Scalar& colour = d.marker ? kGreen : kRed;
+  names.Closed(d.corners_px, colour);
+  names.Dot(d.centroid_px, colour);
+  names.Text(d.centroid_px + Vec2d(0.8, -0.6) * std::sqrt(d.area_px), NameOf(d), colour);
+}
+
+}  // namespace
+
+void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stages) {
+  const Ground ground(stages.field.smooth);
+  WriteField(folder, ground, stages.field, stages.bands);
+
+  Canvas outlines = ground.Draw();
   for (const Pattern& pattern : stages.patterns) outlines.Closed(pattern.outline, kGreen);
   outlines.Write(folder / "04_outlines.png");
 
-  Canvas edges(width, height, picture);
-  Canvas names(width, height, picture);
+  Canvas edges = ground.Draw();
+  Canvas names = ground.Draw();
   for (const Detection& d : stages.detections) {
     const size_t n = d.corners_px.size();
     for (size_t i = 0; i < n; ++i) {
       edges.Line(d.corners_px[i], d.corners_px[(i + 1) % n], i % 2 == 0 ? kYellow : kBlue);
       edges.Dot(d.corners_px[i], kRed);
     }
-    const cv::Scalar& colour = d.marker ? kGreen : kRed;
-    names.Closed(d.corners_px, colour);
-    names.Dot(d.centroid_px, colour);
-    names.Text(d.centroid_px + Vec2d(0.8, -0.6) * std::sqrt(d.area_px), NameOf(d), colour);
+    DrawName(names, d);
   }
   edges.Write(folder / "05_edges.png");
+  names.Write(folder / "06_names.png");
+}
+
+void WriteDebugPictures(const std::filesystem::path& folder, const GradientField& field,
+                        const EdgeBands& bands, const std::vector<JudgedPattern>& judged) {
+  const Ground ground(field.smooth);
+  WriteField(folder, ground, field, bands);
+  Canvas outlines = ground.Draw();
+  Canvas fits = ground.Draw();
+  Canvas names = ground.Draw();
+  for (const JudgedPattern& j : judged) {
+    outlines.Closed(j.outline_px, j.dark ? kBlue : kGreen);
+    fits.Closed(j.fitted_px, j.detection.marker ? kYellow : kRed);
+    if (!j.fitted_px.empty()) {
+      fits.Text(j.detection.centroid_px, cv::format("%.3f", j.probability), kYellow);
+    }
+    DrawName(names, j.detection);
+  }
+  outlines.Write(folder / "04_outlines.png");
+  fits.Write(folder / "05_fits.png");
   names.Write(folder / "06_names.png");
 }
 

@@ -8,6 +8,7 @@
 #include "classifier/edge_bands.h"
 #include "classifier/gradient.h"
 #include "classifier/pattern.h"
+#include "classifier/robust.h"
 
 namespace retrolux {
 
@@ -25,5 +26,12 @@ struct Stages {
 // 05_edges.png     the straight edges, in turns yellow and blue, and the corners
 // 06_names.png     the names with their confidence; ? for a pattern without
 void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stages);
+
+// Of the method `robust`: 01 to 03 and 06 as above, and
+// 04_outlines.png  the half-height outlines, of dark patterns blue
+// 05_fits.png      the best marker's fitted outline: yellow with, red without a name, and the
+//                  probability
+void WriteDebugPictures(const std::filesystem::path& folder, const GradientField& field,
+                        const EdgeBands& bands, const std::vector<JudgedPattern>& judged);
 
 }  // namespace retrolux

@@ -8,17 +8,19 @@
 
 namespace retrolux {
 
-// One bright pattern, in the picture's pixels: (0, 0) is the centre of the top-left pixel, y down.
+// One pattern, bright or (`robust`) dark, in the picture's pixels: (0, 0) is the centre of the
+// top-left pixel, y down.
 struct Detection {
   std::optional<int> marker;  // number in the set; nothing: a pattern that matches no marker
   // Corners in order along the contour, counter-clockwise for who looks at the picture. Of a named
   // marker corner i is corner i of its outline (a triangle looks the same from any of its corners).
   // Empty for round patterns and for those whose edges could not be counted.
   std::vector<Vec2d> corners_px;
-  Vec2d centroid_px = Vec2d::Zero();  // of the area inside the contour
-  double confidence = 0.0;            // 0..1; 0 without a name. The method says what it means.
-  int straight_edges = 0;             // 0: round, or not to be counted
-  double area_px = 0.0;               // inside the contour, px2
+  // Of the area inside the contour (`edges`), or of the marker's light (`robust`).
+  Vec2d centroid_px = Vec2d::Zero();
+  double confidence = 0.0;  // 0..1; 0 without a name. The method says what it means.
+  int straight_edges = 0;   // 0: round, or not to be counted
+  double area_px = 0.0;     // inside the contour, px2
 };
 
 }  // namespace retrolux

@@ -1,6 +1,7 @@
 #include "classifier/method.h"
 
 #include "classifier/edges.h"
+#include "classifier/robust.h"
 #include "core/error.h"
 
 namespace retrolux {
@@ -17,6 +18,10 @@ const std::vector<Entry>& Methods() {
       {"edges",
        [](const DigitalImage& image, const MarkerSet& markers, const std::filesystem::path* debug) {
          return IdentifyByEdges(image, markers, EdgesOptions{}, debug);
+       }},
+      {"robust",
+       [](const DigitalImage& image, const MarkerSet& markers, const std::filesystem::path* debug) {
+         return IdentifyRobustly(image, markers, RobustOptions{}, debug);
        }},
   };
   return methods;

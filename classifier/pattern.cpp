@@ -149,26 +149,55 @@ Polygon Outline(const Polygon& contour) {
   return Resample(contour, static_cast<int>(std::clamp<double>(points, kMinPoints, kMaxPoints)));
 }
 
-std::optional<Pattern> PatternOfBand(const GradientField& field, const EdgeBands& bands,
-                                     const EdgeBand& band, const EdgesOptions& options) {
-  const double box_area =
-      static_cast<double>(band.box.x1 - band.box.x0) * (band.box.y1 - band.box.y0);
-  if (box_area < options.min_area_px) return std::nullopt;
-  // First at the height where the band is steepest, then exactly half way.
-  auto traced = TraceBand(field, bands, band, band.level, options);
-  if (!traced) return std::nullopt;
-  const Polygon first = Outline(traced->contour);
+// The outlines exactly half way of a first outline, in the box around it.
+std::optional<Pattern> Sharpened(const GradientField& field, const EdgeBands& bands,
+                                 const EdgeBand& band, const Polygon& contour,
+                                 const EdgesOptions& options) {
+  const Polygon first = Outline(contour);
   const Profile first_profile = MeasureProfile(field, first);
   if (!(first_profile.median_contrast > 0.0)) return std::nullopt;
-  traced = TraceBand(field, bands, band, HalfWay(first, first_profile), options);
+  const LevelPlane half_way = HalfWay(first, first_profile);
+  const auto traced = TraceBand(field, bands, band, half_way, options);
   if (!traced) return std::nullopt;
   Polygon outline = Outline(traced->contour);
   const Profile profile = MeasureProfile(field, outline);
   Pattern pattern = Measure(field, *traced, profile, std::move(outline));
+  pattern.level = half_way;
   const bool high = pattern.contrast >= options.min_contrast_sigma * pattern.noise;
   const bool sharp = pattern.blur_px <= options.max_blur_px;
   if (!high || !sharp) return std::nullopt;
   return pattern;
+}
+
+bool LargeEnough(const EdgeBand& band, const EdgesOptions& options) {
+  const double box_area =
+      static_cast<double>(band.box.x1 - band.box.x0) * (band.box.y1 - band.box.y0);
+  return box_area >= options.min_area_px;
+}
+
+std::optional<Pattern> PatternOfBand(const GradientField& field, const EdgeBands& bands,
+                                     const EdgeBand& band, const EdgesOptions& options) {
+  if (!LargeEnough(band, options)) return std::nullopt;
+  // First at the height where the band is steepest, then exactly half way.
+  const auto traced = TraceBand(field, bands, band, band.level, options);
+  if (!traced) return std::nullopt;
+  return Sharpened(field, bands, band, traced->contour, options);
+}
+
+// Half a pixel of what goes on outside shows in the outermost two rows.
+bool OffTheBorder(const PixelBox& box, const GradientField& field) {
+  return box.x0 > 0 && box.y0 > 0 && box.x1 < field.smooth.width && box.y1 < field.smooth.height;
+}
+
+PixelBox BoxAround(const Polygon& contour) {
+  Vec2d low = contour.front();
+  Vec2d high = low;
+  for (const Vec2d& p : contour) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return {static_cast<int>(low.x()) - 1, static_cast<int>(low.y()) - 1,
+          static_cast<int>(high.x()) + 3, static_cast<int>(high.y()) + 3};
 }
 
 }  // namespace
@@ -177,13 +206,29 @@ std::vector<Pattern> FindPatterns(const GradientField& field, const EdgeBands& b
                                   const EdgesOptions& options) {
   std::vector<Pattern> patterns;
   for (const EdgeBand& band : bands.bands) {
-    // A pattern at the border may go on outside. Half a pixel of it shows in the outermost two
-    // rows.
-    const bool whole = band.box.x0 > 0 && band.box.y0 > 0 && band.box.x1 < field.smooth.width &&
-                       band.box.y1 < field.smooth.height;
-    if (!whole) continue;
+    // A pattern at the border may go on outside.
+    if (!OffTheBorder(band.box, field)) continue;
     if (auto pattern = PatternOfBand(field, bands, band, options)) {
       patterns.push_back(std::move(*pattern));
+    }
+  }
+  return patterns;
+}
+
+std::vector<Pattern> FindEveryPattern(const GradientField& field, const EdgeBands& bands,
+                                      const EdgesOptions& options) {
+  std::vector<Pattern> patterns;
+  for (const EdgeBand& band : bands.bands) {
+    if (!LargeEnough(band, options)) continue;
+    for (const Polygon& contour : TraceContours(field.smooth, band.box, band.level)) {
+      if (ScreenArea(contour) < options.min_area_px) continue;
+      if (SteepShare(contour, bands.labels, band.label) < kMinSteepShare) continue;
+      EdgeBand own = band;
+      own.box = BoxAround(contour);
+      if (!OffTheBorder(own.box, field)) continue;
+      if (auto pattern = Sharpened(field, bands, own, contour, options)) {
+        patterns.push_back(std::move(*pattern));
+      }
     }
   }
   return patterns;

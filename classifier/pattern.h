@@ -19,10 +19,17 @@ struct Pattern {
   double noise = 0.0;         // of a pixel there, DN
   double blur_px = 0.0;       // width of its edges beyond that of a picture in focus
   double hole_area_px = 0.0;  // of dark holes inside
+  LevelPlane level;           // half way between the pattern and its surroundings, DN
 };
 
-// The patterns that lie wholly in the picture and are large, high and sharp enough for the options.
+// The patterns that lie wholly in the picture and are large, high and sharp enough for the options:
+// one for each band of edges that stays off the picture's border.
 std::vector<Pattern> FindPatterns(const GradientField& field, const EdgeBands& bands,
                                   const EdgesOptions& options);
+
+// The same, but every closed outline that a band follows is one, so that markers whose edges run
+// into one another, into the rim of the mask or an edge that leaves the picture are found, too.
+std::vector<Pattern> FindEveryPattern(const GradientField& field, const EdgeBands& bands,
+                                      const EdgesOptions& options);
 
 }  // namespace retrolux

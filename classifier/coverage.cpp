@@ -1,0 +1,161 @@
+#include "classifier/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace retrolux {
+
+namespace {
+
+// The discrete Gaussian: weights[n] = exp(-v) I_n(v) for n = 0, 1, ..., cut where less than 1e-4 is
+// left, and scaled to the sum 1.
+std::vector<float> BlurWeights(double variance) {
+  constexpr double kLeft = 1e-4;
+  std::vector<float> weights;
+  double sum = 0.0;
+  double first = 1.0;  // (v / 2)^n / n!
+  for (int n = 0; n < 16 && sum < 1.0 - kLeft; ++n) {
+    if (n > 0) first *= 0.5 * variance / n;
+    double term = first;
+    double bessel = term;
+    for (int k = 1; k < 24; ++k) {
+      term *= 0.25 * variance * variance / (k * (n + k));
+      bessel += term;
+    }
+    const double weight = std::exp(-variance) * bessel;
+    weights.push_back(static_cast<float>(weight));
+    sum += n == 0 ? weight : 2.0 * weight;
+  }
+  for (float& w : weights) w /= static_cast<float>(sum);
+  return weights;
+}
+
+void AddScaled(float* sum, float factor, const float* from) {
+  for (int c = 0; c < Coverage::kChannels; ++c) sum[c] += factor * from[c];
+}
+
+}  // namespace
+
+bool Coverage::Render(const Polygon& outline, const OutlineMap& map, int width, int height,
+                      double variance_px2) {
+  const Polygon points = map.Of(outline);
+  PixelBox covered{width, height, 0, 0};
+  for (const Vec2d& p : points) {
+    const bool inside = p.x() > -0.5 && p.y() > -0.5 && p.x() < width - 1.5 && p.y() < height - 0.5;
+    if (!inside) return false;  // also if it is no number
+    const int x = static_cast<int>(std::floor(p.x() + 0.5));
+    const int y = static_cast<int>(std::floor(p.y() + 0.5));
+    covered = {std::min(covered.x0, x), std::min(covered.y0, y), std::max(covered.x1, x + 2),
+               std::max(covered.y1, y + 1)};
+  }
+  width_ = width;
+  height_ = height;
+  data_.assign(static_cast<size_t>(width) * static_cast<size_t>(height) * kChannels, 0.0f);
+  const double sense = SignedArea(points) > 0.0 ? 1.0 : -1.0;
+  const Vec2d half(0.5, 0.5);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const size_t j = (i + 1) % points.size();
+    AddPiece(points[i] + half, points[j] + half, OutlineMap::TermsAt(outline[i]),
+             OutlineMap::TermsAt(outline[j]), sense);
+  }
+  SumRows();
+  if (variance_px2 > 0.0) Blur(covered, std::min(variance_px2, kMaxVariance_px2));
+  return true;
+}
+
+// Cut where it crosses from one pixel into the next. A part that goes down by dy covers dy of all
+// pixels to its right, and of its own what lies to its right (the signs as for an outline with
+// positive SignedArea are turned by `sense`). Displaced by d it gives its pixel d x (dx, dy); its
+// points move with the ends, so their terms lie between those of the ends.
+void Coverage::AddPiece(const Vec2d& a, const Vec2d& b, const Terms& terms_a, const Terms& terms_b,
+                        double sense) {
+  const Vec2d step = b - a;
+  int x = static_cast<int>(std::floor(a.x()));
+  int y = static_cast<int>(std::floor(a.y()));
+  const int last_x = static_cast<int>(std::floor(b.x()));
+  const int last_y = static_cast<int>(std::floor(b.y()));
+  const int way_x = step.x() > 0.0 ? 1 : -1;
+  const int way_y = step.y() > 0.0 ? 1 : -1;
+  int left_x = std::abs(last_x - x);
+  int left_y = std::abs(last_y - y);
+  double t = 0.0;
+  while (true) {
+    // The nearer of the next two grid lines.
+    const double tx = left_x > 0 ? (x + (way_x > 0 ? 1 : 0) - a.x()) / step.x() : 2.0;
+    const double ty = left_y > 0 ? (y + (way_y > 0 ? 1 : 0) - a.y()) / step.y() : 2.0;
+    const double next = std::clamp(std::min(tx, ty), t, 1.0);
+    const double share = next - t;
+    const double middle = 0.5 * (next + t);
+    float* cell = Cell(x, y);
+    const double dx = sense * share * step.x();
+    const double dy = sense * share * step.y();
+    const double right = x + 1.0 - (a.x() + middle * step.x());
+    cell[0] -= static_cast<float>(dy * right);
+    cell[kChannels] -= static_cast<float>(dy * (1.0 - right));
+    const Terms terms = terms_a + middle * (terms_b - terms_a);
+    for (int k = 0; k < OutlineMap::kTerms; ++k) {
+      cell[1 + k] += static_cast<float>(dy * terms[k]);
+      cell[1 + OutlineMap::kTerms + k] -= static_cast<float>(dx * terms[k]);
+    }
+    t = next;
+    if (left_x == 0 && left_y == 0) break;
+    if (tx <= ty) {
+      x += way_x;
+      --left_x;
+    } else {
+      y += way_y;
+      --left_y;
+    }
+  }
+}
+
+void Coverage::SumRows() {
+  for (int y = 0; y < height_; ++y) {
+    float sum = 0.0f;
+    for (int x = 0; x < width_; ++x) {
+      float* cell = Cell(x, y);
+      sum += cell[0];
+      cell[0] = sum;
+    }
+  }
+}
+
+// Along rows, then along columns; only where the covered pixels reach.
+void Coverage::Blur(const PixelBox& covered, double variance_px2) {
+  const std::vector<float> weights = BlurWeights(variance_px2);
+  const int reach = static_cast<int>(weights.size()) - 1;
+  const PixelBox wide{std::max(covered.x0 - reach, 0), covered.y0,
+                      std::min(covered.x1 + reach, width_), covered.y1};
+  const PixelBox all{wide.x0, std::max(covered.y0 - reach, 0), wide.x1,
+                     std::min(covered.y1 + reach, height_)};
+  other_.assign(data_.size(), 0.0f);
+  for (int y = wide.y0; y < wide.y1; ++y) {
+    for (int x = wide.x0; x < wide.x1; ++x) {
+      float* sum = &other_[Index(x, y)];
+      for (int from = std::max(x - reach, 0); from <= std::min(x + reach, width_ - 1); ++from) {
+        AddScaled(sum, weights[static_cast<size_t>(std::abs(from - x))], &data_[Index(from, y)]);
+      }
+    }
+  }
+  for (int y = all.y0; y < all.y1; ++y) {
+    for (int x = all.x0; x < all.x1; ++x) {
+      float* sum = &data_[Index(x, y)];
+      std::fill(sum, sum + kChannels, 0.0f);
+      for (int from = std::max(y - reach, wide.y0); from <= std::min(y + reach, wide.y1 - 1);
+           ++from) {
+        AddScaled(sum, weights[static_cast<size_t>(std::abs(from - y))], &other_[Index(x, from)]);
+      }
+    }
+  }
+}
+
+float Coverage::ByVariance(int x, int y) const {
+  const float here = 2.0f * At(x, y)[0];
+  float sum = 0.0f;
+  if (x > 0 && x + 1 < width_) sum += At(x - 1, y)[0] + At(x + 1, y)[0] - here;
+  if (y > 0 && y + 1 < height_) sum += At(x, y - 1)[0] + At(x, y + 1)[0] - here;
+  return 0.5f * sum;
+}
+
+}  // namespace retrolux
