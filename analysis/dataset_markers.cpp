@@ -48,7 +48,7 @@ std::vector<Kind> DrawKinds(const MarkerRange& range, const std::string& polarit
 
 double RadiusOf(const MarkerSpec& marker) {
   const MarkerSet& set = DefaultMarkerSet();
-  return marker.dark ? std::numbers::sqrt2 * 0.5 * set.size_mm
+  return marker.dark ? std::numbers::sqrt2 * 0.5 * set.dark_square_mm
                      : set.ByNumber(marker.number).Radius();
 }
 
@@ -138,7 +138,7 @@ class Placer {
       const Vec3d on_surface =
           marker_from_mask * Nearest(marker_from_mask.Inverse() * place).position;
       // Off the rim the nearest point lies beside; on a bent surface above or below.
-      if (std::abs(on_surface.z()) > DefaultMarkerSet().size_mm) return false;
+      if (std::abs(on_surface.z()) > DefaultMarkerSet().Side_mm(marker.dark)) return false;
       if ((on_surface - place).head<2>().norm() > kBeside_mm + std::abs(on_surface.z()))
         return false;
     }

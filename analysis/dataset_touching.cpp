@@ -13,7 +13,7 @@ constexpr double kStep_mm = 0.1;
 
 Polygon BrightOutline(const MarkerSpec& marker, double turn_rad) {
   const MarkerSet& set = DefaultMarkerSet();
-  const double s = 0.5 * set.size_mm;
+  const double s = 0.5 * set.dark_square_mm;
   Polygon outline = marker.dark ? Polygon{{-s, -s}, {s, -s}, {s, s}, {-s, s}}
                                 : set.ByNumber(marker.number).outline_mm;
   const Eigen::Rotation2Dd turn(turn_rad);
@@ -48,7 +48,7 @@ SurfacePoint TouchingPlace(const TriangleMesh& mesh, const MarkerSpec& there,
   const Polygon first = BrightOutline(there, 0.0);
   const Polygon second = BrightOutline(marker, RadFromDeg(marker.roll_deg - there.roll_deg));
   const Vec2d direction(std::cos(angle_rad), std::sin(angle_rad));
-  double distance = 2.0 * DefaultMarkerSet().size_mm;
+  double distance = 2.0 * DefaultMarkerSet().dark_square_mm;
   while (distance > 0.0 && !Overlap(first, second, distance * direction)) distance -= kStep_mm;
   const Vec2d shift = (distance + kStep_mm) * direction;
   const RigidTransform marker_from_mask =

@@ -120,7 +120,7 @@ void DescribeMarkers(const Scene& scene, Description& to) {
   to.Line(scene.markers.empty() ? "markers: none" : "markers");
   to.summary["markers"] = nlohmann::json::array();
   for (const MarkerSpec& marker : scene.markers) {
-    const std::string shape = DefaultMarkerSet().ByNumber(marker.number).name;
+    const std::string shape = scene.marker_set->ByNumber(marker.number).name;
     to.Line(fmt::format("  {:<14} number {} ({}) on {} near {} mm, roll {:g} deg, {}{}",
                         marker.name, marker.number, shape, marker.object, Text(marker.at),
                         marker.roll_deg, marker.material, marker.dark ? ", dark on bright" : ""));

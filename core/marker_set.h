@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct MarkerShape {
   std::string name;
   Polygon outline_mm;      // corners, counter-clockwise; a disc is given by 128 corners
   int straight_edges = 0;  // 0 for a disc
+  // Parts inside the outline that are not bright, any corners' order: the pattern of a tag.
+  std::vector<Polygon> holes_mm = {};
 
   bool Contains(const Vec2d& x_in_marker) const;
   // Radius of the circle about the origin that holds the shape.
@@ -24,9 +27,12 @@ struct MarkerShape {
 };
 
 struct MarkerSet {
-  double size_mm = 0.0;  // side of the square that each shape fits into
+  double size_mm = 0.0;         // side of the square that each shape fits into
+  double dark_square_mm = 0.0;  // side of the bright square that a dark shape lies on
   std::vector<MarkerShape> shapes;
 
+  // Side of the square that a marker takes.
+  double Side_mm(bool dark) const { return dark ? dark_square_mm : size_mm; }
   // InputError that lists the known names or numbers.
   const MarkerShape& ByName(const std::string& name) const;
   const MarkerShape& ByNumber(int number) const;
@@ -35,6 +41,8 @@ struct MarkerSet {
 };
 
 MarkerSet ReadMarkerSet(const std::filesystem::path& file);
+// The file that ReadMarkerSet reads (retrolux/markers-1).
+nlohmann::json ToJson(const MarkerSet& set);
 
 // scenes/data/markers.json
 const MarkerSet& DefaultMarkerSet();

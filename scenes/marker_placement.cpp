@@ -36,10 +36,10 @@ Polygon PlacedMarker::BrightOutline() const {
 }
 
 PlacedMarker PlaceMarker(const Scene& scene, const MarkerSpec& marker, uint32_t instance) {
-  const MarkerSet& set = DefaultMarkerSet();
+  const MarkerSet& set = *scene.marker_set;
   PlacedMarker placed;
   placed.instance = instance;
-  placed.shape = &set.ByNumber(marker.number);
+  placed.shape = {scene.marker_set, &set.ByNumber(marker.number)};
   const SceneObject& object = scene.Object(marker.object);
   placed.object = static_cast<size_t>(&object - scene.objects.data());
   const SurfacePoint point = NearestSurfacePoint(object.mesh, marker.at);
@@ -47,7 +47,7 @@ PlacedMarker PlaceMarker(const Scene& scene, const MarkerSpec& marker, uint32_t 
       MarkerFromObject(point, marker.roll_deg) * object.world_from_object.Inverse();
   placed.bright = scene.materials.at(marker.material).bsdf;
   placed.dark = marker.dark;
-  placed.half_size_mm = 0.5 * set.size_mm;
+  placed.half_size_mm = 0.5 * set.Side_mm(marker.dark);
   return placed;
 }
 

@@ -14,7 +14,7 @@ RigidTransform MarkerFromObject(const SurfacePoint& point, double roll_deg);
 // A marker that is ready to be looked up at a surface hit.
 struct PlacedMarker {
   uint32_t instance = 0;  // 1-based, what id.marker holds
-  const MarkerShape* shape = nullptr;
+  std::shared_ptr<const MarkerShape> shape;
   size_t object = 0;  // index in Scene::objects
   RigidTransform marker_from_world;
   std::shared_ptr<const Bsdf> bright;

@@ -242,7 +242,7 @@ void CheckScene(const Scene& scene, const std::filesystem::path& file) {
     const std::string place = fmt::format("marker '{}'", marker.name);
     try {
       scene.Object(marker.object);
-      DefaultMarkerSet().ByNumber(marker.number);
+      scene.marker_set->ByNumber(marker.number);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}: {}", file.string(), place, error.what()));
     }

@@ -190,6 +190,8 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::vector<CameraSpec> cameras;
   std::vector<MarkerSpec> markers;
+  // What the numbers of the markers mean; never null.
+  std::shared_ptr<const MarkerSet> marker_set = {std::shared_ptr<void>(), &DefaultMarkerSet()};
   AmbientLight ambient;
   std::vector<Pose> poses;  // the first is the one that the objects are given in
   Exposure exposure;

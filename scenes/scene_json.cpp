@@ -231,6 +231,10 @@ Scene ReadSceneFile(const fs::path& file) {
           [&](const JsonReader& object) { scene.objects.push_back(objects.Read(object)); });
   ForEach(json, "cameras",
           [&](const JsonReader& camera) { scene.cameras.push_back(ReadCamera(camera)); });
+  if (json.Has("marker_set")) {
+    scene.marker_set = std::make_shared<const MarkerSet>(
+        ReadMarkerSet(file.parent_path() / json.PathBelow("marker_set")));
+  }
   ForEach(json, "markers",
           [&](const JsonReader& marker) { scene.markers.push_back(ReadMarker(scene, marker)); });
   ForEach(json, "poses", [&](const JsonReader& pose) { scene.poses.push_back(ReadPose(pose)); });

@@ -17,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr size_t kLineLength = 110;
+constexpr const char* kMarkerSetFile = "markers.json";
 
 // Not indented, with a space after commas and colons.
 std::string OnOneLine(const Json& node) {
@@ -195,6 +196,7 @@ Json Description(const Scene& scene) {
     json["materials"][name] = Json(ExportedSpec(material));
   }
   for (const Pose& pose : scene.poses) json["poses"].push_back(ToJson(pose));
+  json["marker_set"] = ToJson(*scene.marker_set);
   return json;
 }
 
@@ -260,6 +262,8 @@ void ExportScene(const Scene& scene, const fs::path& folder) {
     if (material.texture)
       WriteTextFile(folder / material.texture->FileName(), material.texture->Bytes());
   }
+  json["marker_set"] = kMarkerSetFile;
+  WriteTextFile(folder / kMarkerSetFile, Pretty(ToJson(*scene.marker_set)) + "\n");
   WriteGlb(scene, scene.up_axis, folder / geometry);
   WriteTextFile(folder / "scene.json", Pretty(json) + "\n");
 }

@@ -152,9 +152,9 @@ TEST(DatasetScenes, MarkersLieApartAndWhereACameraCanSeeThem) {
       EXPECT_GE(best, std::cos(RadFromDeg(75.0)) - 1e-6);
       for (size_t b = 0; b < a; ++b) {
         const double radius =
-            markers[a].dark ? 7.5 * std::numbers::sqrt2 : markers[a].shape->Radius();
+            markers[a].dark ? 10.5 * std::numbers::sqrt2 : markers[a].shape->Radius();
         const double other =
-            markers[b].dark ? 7.5 * std::numbers::sqrt2 : markers[b].shape->Radius();
+            markers[b].dark ? 10.5 * std::numbers::sqrt2 : markers[b].shape->Radius();
         EXPECT_GE((markers[a].CentreInWorld() - markers[b].CentreInWorld()).norm(),
                   radius + other + 3.0 - 1e-6);
       }
