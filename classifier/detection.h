@@ -18,6 +18,10 @@ struct Detection {
   std::vector<Vec2d> corners_px;
   // Of the area inside the contour (`edges`), or of the marker's light (`robust`).
   Vec2d centroid_px = Vec2d::Zero();
+  // Where the middle of the shape's area falls, a fixed point of the marker: unlike centroids it
+  // does not move with falling light, perspective or a curved surface. What cameras triangulate.
+  // Nothing where the method does not know (`edges`, and patterns that fit no marker).
+  std::optional<Vec2d> centre_px;
   double confidence = 0.0;  // 0..1; 0 without a name. The method says what it means.
   int straight_edges = 0;   // 0: round, or not to be counted
   double area_px = 0.0;     // inside the contour, px2

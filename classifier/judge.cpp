@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classifier/dark_frame.h"
 #include "classifier/ground_step.h"
 
 namespace retrolux {
@@ -120,6 +121,7 @@ JudgedPattern Judge::Decide(const Pattern& pattern, const FloatPlane& height, bo
   const ShapeModel& model = models_[tried_.front().model];
   const Polygon outline = fit.map.Of(model.outline);
   judged.evidence = Weigh(pattern, outline);
+  if (dark && dark_square_ > 1.0) judged.evidence.framed = Framed(height);
   judged.probability = NameProbability(judged.evidence);
   const auto in_picture = [&](const Vec2d& p) -> Vec2d {
     return patch_.origin_px + patch_.scale * p;
@@ -127,6 +129,7 @@ JudgedPattern Judge::Decide(const Pattern& pattern, const FloatPlane& height, bo
   for (const Vec2d& p : outline) judged.fitted_px.push_back(in_picture(p));
   detection.straight_edges = model.straight_edges;
   detection.centroid_px = in_picture(dark ? Centroid(outline) : CentroidOfLight(fit));
+  detection.centre_px = in_picture(fit.map.At(model.mean));
   if (model.straight_edges > 0) {
     for (const Vec2d& p : model.corners) detection.corners_px.push_back(in_picture(fit.map.At(p)));
   }
@@ -215,6 +218,14 @@ Evidence Judge::Weigh(const Pattern& pattern, const Polygon& outline) {
   e.blur_px = std::sqrt(best.fit.blur_variance) * patch_.scale;
   e.area_px = pattern.area_px;
   return e;
+}
+
+// `negative`: of the smoothed picture. Of the best fit.
+double Judge::Framed(const FloatPlane& negative) const {
+  const MarkerFit& fit = tried_.front().fit;
+  const OutlineMap in_picture =
+      fit.map.InPixels(-patch_.origin_px / patch_.scale, 1.0 / patch_.scale);
+  return DarkFrame(negative, in_picture, dark_square_, std::abs(fit.contrast));
 }
 
 // Centroid of the light that the marker sends, in patch pixels: of every pixel what the

@@ -16,9 +16,9 @@ struct FitOptions {
   double converged_px = 0.005;  // largest change of a corner in the last step
   double max_blur_px = 2.0;     // standard deviation, beyond the pixel's own box
   // What is known of the bend before the pixels are seen, standard deviations. Curved surfaces:
-  // their sagitta over half the marker's square, of that half (7.5 mm / (2 x 120 mm)). Perspective:
+  // their sagitta over half the marker's square, of that half (7.5 mm / (2 x 60 mm)). Perspective:
   // the focal length, px, of a lens that is rather wide.
-  double curvature = 0.03;
+  double curvature = 0.06;
   double focal_px = 1500.0;
 };
 
