@@ -111,7 +111,7 @@ MarkerKeypoint Keypoint(const LabelledMarker& marker, const std::optional<Surfac
 
 void MeasureSignal(const MaskPlane& visible, const MaskPlane& amodal, const Film& film,
                    const SensorSpec& sensor, double exposure_s, MarkerLabel& label) {
-  label.centroid_radiometric_px = RadiometricCentroid(film, label.instance);
+  label.centroid_radiometric_px = RadiometricCentroid(film, label.instance, sensor);
   label.signal_e = InnerSignal(visible, film.electrons);
   label.background_e = BackgroundSignal(amodal, film);
   if (!label.signal_e || !label.background_e) return;

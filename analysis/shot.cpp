@@ -94,7 +94,7 @@ std::vector<std::string> RenderShot(const Scene& scene, const ShotOptions& optio
       truth.views.push_back(ViewMarker(surfaces[m], rays, camera.model));
       if (film)
         truth.views.back().centroid_radiometric_px =
-            RadiometricCentroid(*film, markers[m].instance);
+            RadiometricCentroid(*film, markers[m].instance, camera.sensor);
     }
     truths.push_back(std::move(truth));
     models.push_back(camera.model);

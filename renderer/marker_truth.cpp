@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "renderer/pixel_spread.h"
+
 namespace retrolux {
 
 namespace {
@@ -132,7 +134,8 @@ MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays,
   return view;
 }
 
-std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance) {
+std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance,
+                                         const SensorSpec& sensor) {
   Vec2d moment = Vec2d::Zero();
   double sum = 0.0;
   for (size_t rank = 0; rank < film.marker_id.size(); ++rank) {
@@ -146,7 +149,7 @@ std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance) {
     }
   }
   if (sum <= 0.0) return std::nullopt;
-  return moment / sum;
+  return moment / sum + Vec2d(0.0, LineOffset_px(sensor));
 }
 
 }  // namespace retrolux

@@ -51,7 +51,9 @@ struct MarkerView {
 MarkerView ViewMarker(const MarkerSurface& surface, const RayScene& rays,
                       const CameraModel& camera);
 
-// The centroid of the light that reaches the sensor from marker `instance`; nothing if none does.
-std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance);
+// The centroid of the light that reaches the sensor from marker `instance`, in the picture that the
+// sensor gives of the film (renderer/pixel_spread.h); nothing if none does.
+std::optional<Vec2d> RadiometricCentroid(const Film& film, uint32_t instance,
+                                         const SensorSpec& sensor);
 
 }  // namespace retrolux

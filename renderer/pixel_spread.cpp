@@ -12,11 +12,15 @@ Vec2d SampleCutGaussian(const Vec2f& u) {
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
+double LineOffset_px(const SensorSpec& sensor) {
+  return sensor.scan == Scan::kInterlaced ? -0.5 : 0.0;
+}
+
 PixelSpread::PixelSpread(const CameraSpec& camera, double wavelength_nm) {
   if (camera.lens.diffraction) airy_.emplace(camera, wavelength_nm);
   diffusion_px_ = 1e-3 * camera.sensor.charge_diffusion_um / camera.lens.PrincipalDistance_mm() *
                   Vec2d(camera.model.fx, camera.model.fy);
-  if (camera.sensor.scan == Scan::kInterlaced) line_offset_px_ = -0.5;
+  line_offset_px_ = LineOffset_px(camera.sensor);
 }
 
 Vec2d PixelSpread::Sample(PixelSampler& sampler) const {

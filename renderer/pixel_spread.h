@@ -12,6 +12,9 @@
 
 namespace retrolux {
 
+// Of the photosites' line y from row y of the picture, px: 0, or -0.5 with interlaced scan.
+double LineOffset_px(const SensorSpec& sensor);
+
 class PixelSpread {
  public:
   // `wavelength_nm` as for AiryDisc.

@@ -698,30 +698,34 @@ TEST(MarkerTruth, VisibleFraction) {
 TEST(MarkerTruth, RadiometricCentroidOfAFrontalMarker) {
   // Seen frontally the shape is evenly bright, up to the LEDs' changing angle: its light has its
   // area's centroid.
-  const Scene scene = RoomWithMarkerFacing("front-middle", 20.0);
-  const RayScene rays(scene);
-  const std::vector<PlacedMarker> markers = PlaceMarkers(scene);
-  const CameraSpec& camera = scene.Camera("front-middle");
-  const Lights lights(scene, rays, RingChoice::kOwn, camera.model.name);
-  const CameraResponse response(camera, lights.Spectra(), ExposureSeconds(scene, camera));
-  TraceOptions options;
-  options.samples_per_pixel = 32;
-  const PathTracer tracer(scene, rays, lights, response, markers, options);
-  const MarkerView view = ViewMarker(SampleMarkerSurface(rays, markers[0]), rays, camera.model);
-  Film film(camera.model.width, camera.model.height, lights.GroupNames());
-  EXPECT_FALSE(RadiometricCentroid(film, 1).has_value());
-  const Vec2d centre = *view.centroid_outline_px;
-  for (int y = static_cast<int>(centre.y()) - 26; y <= static_cast<int>(centre.y()) + 26; ++y) {
-    for (int x = static_cast<int>(centre.x()) - 26; x <= static_cast<int>(centre.x()) + 26; ++x)
-      film.Set(x, y, tracer.EstimatePixel(x, y));
+  // So it has with interlaced scan, whose lines lie half a row above the picture's rows.
+  for (const Scan scan : {Scan::kProgressive, Scan::kInterlaced}) {
+    const Scene scene = RoomWithMarkerFacing("front-middle", 20.0);
+    const RayScene rays(scene);
+    const std::vector<PlacedMarker> markers = PlaceMarkers(scene);
+    CameraSpec camera = scene.Camera("front-middle");
+    camera.sensor.scan = scan;
+    const Lights lights(scene, rays, RingChoice::kOwn, camera.model.name);
+    const CameraResponse response(camera, lights.Spectra(), ExposureSeconds(scene, camera));
+    TraceOptions options;
+    options.samples_per_pixel = 32;
+    const PathTracer tracer(scene, rays, lights, response, markers, options);
+    const MarkerView view = ViewMarker(SampleMarkerSurface(rays, markers[0]), rays, camera.model);
+    Film film(camera.model.width, camera.model.height, lights.GroupNames());
+    EXPECT_FALSE(RadiometricCentroid(film, 1, camera.sensor).has_value());
+    const Vec2d centre = *view.centroid_outline_px;
+    for (int y = static_cast<int>(centre.y()) - 26; y <= static_cast<int>(centre.y()) + 26; ++y) {
+      for (int x = static_cast<int>(centre.x()) - 26; x <= static_cast<int>(centre.x()) + 26; ++x)
+        film.Set(x, y, tracer.EstimatePixel(x, y));
+    }
+    const auto centroid = RadiometricCentroid(film, 1, camera.sensor);
+    ASSERT_TRUE(centroid.has_value());
+    EXPECT_LT((*centroid - centre).norm(), 0.3);
+    // Coverage is the outline's area.
+    const auto& weights = film.marker_weight[0].data;
+    const double area_px = std::accumulate(weights.begin(), weights.end(), 0.0);
+    EXPECT_NEAR(area_px, std::abs(SignedArea(view.outline_px)), 0.01 * area_px);
   }
-  const auto centroid = RadiometricCentroid(film, 1);
-  ASSERT_TRUE(centroid.has_value());
-  EXPECT_LT((*centroid - centre).norm(), 0.3);
-  // Coverage is the outline's area.
-  const auto& weights = film.marker_weight[0].data;
-  const double area_px = std::accumulate(weights.begin(), weights.end(), 0.0);
-  EXPECT_NEAR(area_px, std::abs(SignedArea(view.outline_px)), 0.01 * area_px);
 }
 
 // --- exposure ---
