@@ -37,8 +37,8 @@ std::vector<std::string> NuisanceNames(const DatasetIndex& index) {
   return {names.begin(), names.end()};
 }
 
-std::vector<std::string> Row(const DatasetScene& scene, const DatasetPicture& picture,
-                             const MarkerLabel& label) {
+std::vector<std::string> LabelCells(const DatasetScene& scene, const DatasetPicture& picture,
+                                    const MarkerLabel& label) {
   std::vector<std::string> cells = {scene.name,
                                     scene.split,
                                     picture.camera,
@@ -63,7 +63,9 @@ std::vector<std::string> Row(const DatasetScene& scene, const DatasetPicture& pi
 
 }  // namespace
 
-std::filesystem::path ExportCsv(const DatasetIndex& index, const std::filesystem::path& folder) {
+LabelTable::LabelTable(const DatasetIndex& index) : nuisances_(NuisanceNames(index)) {}
+
+std::vector<std::string> LabelTable::Columns() const {
   // Pixel origin as in every table of ours: the centre of the top-left pixel.
   std::vector<std::string> columns = {"scene",
                                       "split",
@@ -88,17 +90,24 @@ std::filesystem::path ExportCsv(const DatasetIndex& index, const std::filesystem
                                       "visible_px",
                                       "amodal_px",
                                       "in_frame"};
-  const std::vector<std::string> nuisances = NuisanceNames(index);
-  for (const std::string& name : nuisances) columns.push_back("scene." + name);
-  CsvWriter csv(columns);
+  for (const std::string& name : nuisances_) columns.push_back("scene." + name);
+  return columns;
+}
+
+std::vector<std::string> LabelTable::Row(const DatasetScene& scene, const DatasetPicture& picture,
+                                         const MarkerLabel& label) const {
+  std::vector<std::string> cells = LabelCells(scene, picture, label);
+  for (const std::string& name : nuisances_)
+    cells.push_back(Cell(scene.nuisances.value(name, Json())));
+  return cells;
+}
+
+std::filesystem::path ExportCsv(const DatasetIndex& index, const std::filesystem::path& folder) {
+  const LabelTable table(index);
+  CsvWriter csv(table.Columns());
   for (const DatasetScene& scene : index.scenes) {
     for (const DatasetPicture& picture : scene.pictures) {
-      for (const MarkerLabel& label : picture.markers) {
-        std::vector<std::string> cells = Row(scene, picture, label);
-        for (const std::string& name : nuisances)
-          cells.push_back(Cell(scene.nuisances.value(name, Json())));
-        csv.Row(cells);
-      }
+      for (const MarkerLabel& label : picture.markers) csv.Row(table.Row(scene, picture, label));
     }
   }
   std::filesystem::path file = folder / "markers.csv";

@@ -5,8 +5,20 @@
 
 namespace retrolux {
 
-// FOLDER/markers.csv: a row for each marker in each picture, with its scene's nuisances; masks and
-// corners are not in it. Returns the file.
+// What is known of a marker in a picture, and of its scene's nuisances that are one value each, as
+// cells of a table. Masks and corners are not among them.
+class LabelTable {
+ public:
+  explicit LabelTable(const DatasetIndex& index);
+  std::vector<std::string> Columns() const;
+  std::vector<std::string> Row(const DatasetScene& scene, const DatasetPicture& picture,
+                               const MarkerLabel& label) const;
+
+ private:
+  std::vector<std::string> nuisances_;
+};
+
+// FOLDER/markers.csv: a row for each marker in each picture. Returns the file.
 std::filesystem::path ExportCsv(const DatasetIndex& index, const std::filesystem::path& folder);
 
 }  // namespace retrolux

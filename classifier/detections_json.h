@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "classifier/detection.h"
+#include "core/marker_set.h"
 
 namespace retrolux {
 
@@ -22,5 +23,15 @@ nlohmann::ordered_json DetectionsJson(const std::string& method,
 // Written whole or not at all.
 void WriteDetections(const std::filesystem::path& file, const std::string& method,
                      const std::vector<PictureDetections>& pictures);
+
+struct DetectionsFile {
+  std::string method;  // that all detections name; empty: none, or several
+  std::vector<PictureDetections> pictures;
+};
+
+// A file of ours or of another detector. `schema`, `pixel_origin` and of each detection `marker`
+// and `centroid_px` must be there; absent: no corners, confidence 1, method "", 0 edges, 0 px2.
+// InputError with the place.
+DetectionsFile ReadDetections(const std::filesystem::path& file, const MarkerSet& markers);
 
 }  // namespace retrolux
