@@ -79,7 +79,12 @@ void CheckNoneTwice(const char* option, std::vector<T> values) {
 
 void CheckStudy(const Scene& scene, const MarkerStudyOptions& options) {
   CheckStudyScene(scene);
+  if (options.method != kEdgesMethod && options.method != kRobustMethod) {
+    throw InputError(
+        fmt::format("method '{}'; expected {} or {}", options.method, kEdgesMethod, kRobustMethod));
+  }
   options.edges.Check();
+  options.robust.Check();
   for (const int marker : options.markers) DefaultMarkerSet().ByNumber(marker);
   CheckNoneTwice("--markers", options.markers);
   std::vector<std::string> poses;
@@ -103,6 +108,27 @@ Json ToJson(const EdgesOptions& edges) {
           {"max_tilt_deg", edges.max_tilt_deg}};
 }
 
+Json ToJson(const RobustOptions& robust) {
+  return {{"min_area_px", robust.min_area_px},
+          {"min_slope_sigma", robust.min_slope_sigma},
+          {"min_contrast_sigma", robust.min_contrast_sigma},
+          {"max_edge_blur_px", robust.max_edge_blur_px},
+          {"turns", robust.turns},
+          {"likely_outline", robust.likely_outline},
+          {"fits", robust.fits},
+          {"margin_px", robust.patch.margin_px},
+          {"most_pixels", robust.patch.most_pixels},
+          {"max_steps", robust.fit.max_steps},
+          {"converged_px", robust.fit.converged_px},
+          {"max_blur_px", robust.fit.max_blur_px},
+          {"curvature", robust.fit.curvature},
+          {"focal_px", robust.fit.focal_px},
+          {"min_probability", robust.min_probability},
+          {"max_size_ratio", robust.max_size_ratio},
+          {"dark", robust.dark},
+          {"black_dn", robust.black_dn ? Json(*robust.black_dn) : Json()}};
+}
+
 // All that every task depends on. Which poses are studied is no part of it, so that those done stay
 // done when more are asked for.
 Json Inputs(const Scene& room, const MarkerStudyOptions& options) {
@@ -115,7 +141,8 @@ Json Inputs(const Scene& room, const MarkerStudyOptions& options) {
           {"stride", options.stride},         {"mirrored_checks", options.mirrored_checks},
           {"spp", options.samples_per_pixel}, {"seed", options.seed},
           {"noise_seed", options.noise_seed}, {"keep", keep},
-          {"edges", ToJson(options.edges)}};
+          {"method", options.method},         {"edges", ToJson(options.edges)},
+          {"robust", ToJson(options.robust)}};
 }
 
 // By pose, then by camera.

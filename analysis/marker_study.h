@@ -7,6 +7,7 @@
 #include "analysis/composed_picture.h"
 #include "analysis/marker_grid.h"
 #include "classifier/edges.h"
+#include "classifier/robust.h"
 #include "core/task_manifest.h"
 
 namespace retrolux {
@@ -36,7 +37,11 @@ struct PictureResult {
   double visible_fraction = 0.0;
   Outcome outcome = Outcome::kNotDetected;
   std::optional<int> detected;  // the number that the method gave to the pattern there
+  bool edges_hit = false;       // whether method `edges` identifies it in this picture
 };
+
+inline constexpr const char* kEdgesMethod = "edges";
+inline constexpr const char* kRobustMethod = "robust";
 
 enum class Keep { kAll, kMisses, kSamples };
 
@@ -49,7 +54,9 @@ struct MarkerStudyOptions {
   uint64_t seed = 1;
   uint64_t noise_seed = 1;
   Keep keep = Keep::kSamples;
+  std::string method = kEdgesMethod;  // or kRobustMethod; `edges` sees every picture beside it
   EdgesOptions edges;
+  RobustOptions robust;
   int mirrored_checks = 24;  // positions of the other half that are rendered to check the symmetry
 };
 

@@ -1,4 +1,5 @@
 #include "analysis/marker_coverage.h"
+#include "analysis/marker_study_gain.h"
 #include "core/atomic_file.h"
 #include "core/csv.h"
 
@@ -13,7 +14,7 @@ std::string Detected(const PictureResult& result) {
 
 void WriteHits(const MarkerStudy& study, const std::filesystem::path& file) {
   CsvWriter csv({"marker", "pose", "camera", "row", "col", "x_mm", "y_mm", "z_mm", "incidence_deg",
-                 "visible_fraction", "hit", "detected", "reason"});
+                 "visible_fraction", "hit", "detected", "reason", "edges_hit"});
   for (const PictureResult& r : study.results) {
     const bool hit = r.outcome == Outcome::kHit;
     csv.Row({std::to_string(r.marker), study.poses[static_cast<size_t>(r.pose)].name,
@@ -22,7 +23,7 @@ void WriteHits(const MarkerStudy& study, const std::filesystem::path& file) {
              fmt::format("{:.3f}", r.position_in_world.y()),
              fmt::format("{:.3f}", r.position_in_world.z()), fmt::format("{:.3f}", r.incidence_deg),
              fmt::format("{:.4f}", r.visible_fraction), hit ? "1" : "0", Detected(r),
-             hit ? "" : OutcomeName(r.outcome)});
+             hit ? "" : OutcomeName(r.outcome), r.edges_hit ? "1" : "0"});
   }
   csv.Write(file);
 }
@@ -90,6 +91,7 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
                     {"outcome", OutcomeName(r.outcome)}});
   }
   const SymmetryCheck symmetry = CheckSymmetry(study);
+  const std::optional<MethodGain> gain = GainOverEdges(study, coverage);
   return {{"schema", "retrolux/marker-study-1"},
           {"version", RETROLUX_VERSION},
           {"units", "mm, deg"},
@@ -103,7 +105,8 @@ nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& cover
           {"spp", study.options.samples_per_pixel},
           {"seed", study.options.seed},
           {"noise_seed", study.options.noise_seed},
-          {"method", "edges"},
+          {"method", study.options.method},
+          {"gain_over_edges", gain ? ToJson(*gain) : nlohmann::json(nullptr)},
           {"material", study.options.material},
           {"sets", sets},
           {"outcomes", reasons},

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/marker_coverage.h"
+#include "analysis/marker_study_gain.h"
 #include "analysis/plotly_figure.h"
 #include "analysis/report.h"
 #include "core/atomic_file.h"
@@ -39,11 +40,13 @@ class StudyReport {
         folder_(std::move(folder)),
         report_(
             "Where markers can be placed on the mask",
-            fmt::format("CT room, {} cameras, markers {}, method edges; retrolux " RETROLUX_VERSION,
-                        study.cameras.size(), fmt::join(study.options.markers, " and "))) {}
+            fmt::format("CT room, {} cameras, markers {}, method {}; retrolux " RETROLUX_VERSION,
+                        study.cameras.size(), fmt::join(study.options.markers, " and "),
+                        study.options.method)) {}
 
   Report Compose(const std::string& command) {
     Summary();
+    Gain();
     if (study_.poses.size() <= 3) {
       SetMaps();
       CountMaps();
@@ -91,6 +94,29 @@ class StudyReport {
                     "marker was given another's number "
                     "in **{}** of them.",
                     study_.results.size(), study_.composed, wrong));
+  }
+
+  void Gain() {
+    const std::optional<MethodGain> gain = GainOverEdges(study_, coverage_);
+    if (!gain) return;
+    report_.Heading(fmt::format("What {} gains over edges", study_.options.method));
+    report_.Paragraph(fmt::format(
+        "Both methods saw the same pictures. {} named the marker in **{}** of them, edges in "
+        "**{}**; only edges in {}.",
+        study_.options.method, gain->both + gain->only_method, gain->both + gain->only_edges,
+        gain->only_edges));
+    std::vector<std::vector<std::string>> rows;
+    for (const SetGain& g : gain->sets) {
+      if (study_.poses.size() > 3 && !g.set.pose.empty()) continue;
+      rows.push_back({std::to_string(g.set.marker), g.set.pose, g.set.name,
+                      fmt::format("{:.1f}", g.edges_pct), fmt::format("{:.1f}", g.set.percent),
+                      fmt::format("{:+.1f}", g.set.percent - g.edges_pct), std::to_string(g.won),
+                      std::to_string(g.lost)});
+    }
+    report_.Table("Usable area of the face half, %, and cells of one half won and lost",
+                  {"marker", "pose", "set", "edges / %", study_.options.method + " / %", "gain / %",
+                   "cells won", "cells lost"},
+                  rows);
   }
 
   OvalMap MapOf(const CellSet& set, const std::string& label) const {

@@ -106,7 +106,7 @@ class PosedCamera {
     const PlacedMarker placed = Place(marker, position);
     const MarkerSurface surface = SampleMarkerSurface(rays_, placed);
     PictureResult result{marker, pose_, index_,           position, surface.centre,
-                         0.0,    0.0,   Outcome::kHidden, {}};
+                         0.0,    0.0,   Outcome::kHidden, {},       false};
     const MarkerView view = ViewMarker(surface, rays_, camera_.Camera().model);
     result.incidence_deg = view.incidence_deg;
     result.visible_fraction = view.visible_fraction;
@@ -119,17 +119,30 @@ class PosedCamera {
       times.trace += Since(clock);
       const DigitalImage picture = Expose(signal, result);
       times.sensor += Since(clock);
-      const std::vector<Detection> found =
-          IdentifyByEdges(picture, DefaultMarkerSet(), study_.options.edges);
-      const Detection* here = DetectionAt(found, view.outline_px);
-      if (here) result.detected = here->marker;
-      result.outcome = OutcomeOfPicture(marker, view, here, study_.options.edges.min_area_px);
+      Identify(picture, view, result);
       times.identify += Since(clock);
       if (ToBeKept(result)) Write(picture, result);
       times.write += Since(clock);
     }
     Account(times, retraced);
     return result;
+  }
+
+  // What the study's method and `edges` say of a picture.
+  void Identify(const DigitalImage& picture, const MarkerView& view, PictureResult& result) const {
+    const MarkerStudyOptions& options = study_.options;
+    const std::vector<Detection> by_edges =
+        IdentifyByEdges(picture, DefaultMarkerSet(), options.edges);
+    const Detection* edges = DetectionAt(by_edges, view.outline_px);
+    result.edges_hit = edges && edges->marker == result.marker;
+    const bool robust = options.method == kRobustMethod;
+    const std::vector<Detection> by_robust =
+        robust ? IdentifyRobustly(picture, DefaultMarkerSet(), options.robust)
+               : std::vector<Detection>();
+    const Detection* here = robust ? DetectionAt(by_robust, view.outline_px) : edges;
+    if (here) result.detected = here->marker;
+    result.outcome = OutcomeOfPicture(
+        result.marker, view, here, robust ? options.robust.min_area_px : options.edges.min_area_px);
   }
 
   // Whether --keep all or misses asks for it.
@@ -234,9 +247,10 @@ Outcome OutcomeByName(const std::string& name) {
 
 // What stands in a row of a result, in this order.
 const Json& Columns() {
-  static const Json columns = {"marker",  "row",  "col",           "mirrored",         "x_mm",
-                               "y_mm",    "z_mm", "incidence_deg", "visible_fraction", "outcome",
-                               "detected"};
+  static const Json columns = {"marker",   "row",           "col",
+                               "mirrored", "x_mm",          "y_mm",
+                               "z_mm",     "incidence_deg", "visible_fraction",
+                               "outcome",  "detected",      "edges_hit"};
   return columns;
 }
 
@@ -251,7 +265,8 @@ Json RowOf(const PictureResult& r) {
           r.incidence_deg,
           r.visible_fraction,
           OutcomeName(r.outcome),
-          r.detected ? Json(*r.detected) : Json()};
+          r.detected ? Json(*r.detected) : Json(),
+          r.edges_hit};
 }
 
 PictureResult PictureOf(const Json& row, int pose, int camera) {
@@ -265,6 +280,7 @@ PictureResult PictureOf(const Json& row, int pose, int camera) {
   r.visible_fraction = row.at(8).get<double>();
   r.outcome = OutcomeByName(row.at(9).get<std::string>());
   if (!row.at(10).is_null()) r.detected = row.at(10).get<int>();
+  r.edges_hit = row.at(11).get<bool>();
   return r;
 }
 

@@ -37,8 +37,7 @@ Noise Measure(const Scene& scene, RingChoice choice, const Vec3d& at, bool marke
   if (marker) {
     markers.push_back(PlaceMarker(scene, {"marker", 1, "mask", at}, 1));
     markers[0].dark = true;  // all of its square is bright
-    static const MarkerShape no_shape{};
-    markers[0].shape = &no_shape;
+    markers[0].shape = std::make_shared<const MarkerShape>();
   }
   const Vec2d px = *camera.model.Project(at);
   const int x0 = static_cast<int>(px.x()), y0 = static_cast<int>(px.y());

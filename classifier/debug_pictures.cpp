@@ -170,4 +170,19 @@ void WriteDebugPictures(const std::filesystem::path& folder, const GradientField
   names.Write(folder / "06_names.png");
 }
 
+void WriteDebugPictures(const std::filesystem::path& folder, const DigitalImage& image,
+                        const std::vector<FoundTag>& tags) {
+  FloatPlane levels(image.dn.width, image.dn.height);
+  std::copy(image.dn.data.begin(), image.dn.data.end(), levels.data.begin());
+  Canvas canvas = Ground(levels).Draw();
+  for (const FoundTag& tag : tags) {
+    canvas.Closed({tag.corners_px.begin(), tag.corners_px.end()}, kGreen);
+    for (const Vec2d& corner : tag.corners_px) canvas.Dot(corner, kYellow);
+    canvas.Dot(tag.corners_px[0], kRed);
+    canvas.Text(tag.corners_px[0], std::to_string(tag.id), kBlue);
+  }
+  EnsureWritableFolder(folder);
+  canvas.Write(folder / "tags.png");
+}
+
 }  // namespace retrolux

@@ -9,6 +9,7 @@
 #include "classifier/gradient.h"
 #include "classifier/pattern.h"
 #include "classifier/robust.h"
+#include "classifier/tags.h"
 
 namespace retrolux {
 
@@ -33,5 +34,10 @@ void WriteDebugPictures(const std::filesystem::path& folder, const Stages& stage
 //                  probability
 void WriteDebugPictures(const std::filesystem::path& folder, const GradientField& field,
                         const EdgeBands& bands, const std::vector<JudgedPattern>& judged);
+
+// tags.png: the picture, brightened, with the dark squares that a library found, their first
+// corners and ids.
+void WriteDebugPictures(const std::filesystem::path& folder, const DigitalImage& image,
+                        const std::vector<FoundTag>& tags);
 
 }  // namespace retrolux

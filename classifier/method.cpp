@@ -2,6 +2,7 @@
 
 #include "classifier/edges.h"
 #include "classifier/robust.h"
+#include "classifier/tags.h"
 #include "core/error.h"
 
 namespace retrolux {
@@ -9,12 +10,22 @@ namespace retrolux {
 namespace {
 
 struct Entry {
-  const char* name;
+  std::string name;
   Method method;
 };
 
-const std::vector<Entry>& Methods() {
-  static const std::vector<Entry> methods = {
+// The libraries' methods are named as the families of tags that they find.
+void AddTagMethods(std::vector<Entry>& methods) {
+  for (const TagFamily& family : TagFamilies()) {
+    methods.push_back({family.name, [&family](const DigitalImage& image, const MarkerSet& markers,
+                                              const std::filesystem::path* debug) {
+                         return IdentifyTags(family, image, markers, debug);
+                       }});
+  }
+}
+
+std::vector<Entry> MakeMethods() {
+  std::vector<Entry> methods = {
       {"edges",
        [](const DigitalImage& image, const MarkerSet& markers, const std::filesystem::path* debug) {
          return IdentifyByEdges(image, markers, EdgesOptions{}, debug);
@@ -24,6 +35,12 @@ const std::vector<Entry>& Methods() {
          return IdentifyRobustly(image, markers, RobustOptions{}, debug);
        }},
   };
+  AddTagMethods(methods);
+  return methods;
+}
+
+const std::vector<Entry>& Methods() {
+  static const std::vector<Entry> methods = MakeMethods();
   return methods;
 }
 
@@ -31,7 +48,7 @@ const std::vector<Entry>& Methods() {
 
 std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
-  for (const Entry& entry : Methods()) names.emplace_back(entry.name);
+  for (const Entry& entry : Methods()) names.push_back(entry.name);
   return names;
 }
 

@@ -42,10 +42,13 @@ void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpDataset(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpEvaluate(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpGoniometer(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMaterial(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMask(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpStereo(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpTags(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpValidate(CLI::App& app, const GlobalOptions& global, Run& run);
 
 // The progress bar or log that the global options ask for.

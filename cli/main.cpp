@@ -89,8 +89,11 @@ int main(int argc, char** argv) {
   SetUpMask(app, global, run);
   SetUpMaterial(app, global, run);
   SetUpGoniometer(app, global, run);
+  SetUpStereo(app, global, run);
   SetUpStudy(app, global, run);
+  SetUpTags(app, global, run);
   SetUpDataset(app, global, run);
+  SetUpEvaluate(app, global, run);
   SetUpValidate(app, global, run);
   try {
     app.parse(argc, argv);

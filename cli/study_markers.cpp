@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "analysis/marker_coverage.h"
+#include "analysis/marker_study_gain.h"
 #include "cli/run_json.h"
 #include "cli/study.h"
 #include "scenes/scene_json.h"
@@ -59,6 +60,10 @@ std::string Text(const MarkerStudy& study, const StudyCoverage& coverage,
     text += fmt::format("marker {}  {:<10} {:<10} {:6.2f} %  {:8.0f} mm2\n", set.marker, set.name,
                         set.pose, set.percent, set.area_mm2);
   }
+  if (const auto gain = GainOverEdges(study, coverage)) {
+    text += fmt::format("named by both {}, only by {} {}, only by edges {}\n", gain->both,
+                        study.options.method, gain->only_method, gain->only_edges);
+  }
   text += fmt::format("{:.0f} pictures in {:.1f} s ({:.0f} a minute)", PicturesNow(study), seconds,
                       60.0 * PicturesNow(study) / seconds);
   const std::string tasks = study.tasks.Text();
@@ -107,9 +112,11 @@ void SetUpStudyMarkers(CLI::App& study, const GlobalOptions& global, Run& run) {
                   "names of poses, or 'scan': every 5 mm from start to end")
       ->delimiter(',')
       ->capture_default_str();
-  sub->add_option("--method", "how markers are identified")
-      ->check(CLI::IsMember({"edges"}))
-      ->default_str("edges");
+  sub->add_option(
+         "--method", command->study.method,
+         "how markers are identified; with robust, the gain over edges in the same pictures")
+      ->check(CLI::IsMember({kEdgesMethod, kRobustMethod}))
+      ->capture_default_str();
   sub->add_option("--spp", command->study.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, 1 << 16))
       ->capture_default_str();

@@ -127,7 +127,7 @@ nlohmann::json ToJson(const Polygon& polygon) {
 nlohmann::json ToJson(const MarkerShape& shape) {
   nlohmann::json json = {{"number", shape.number}, {"name", shape.name}};
   if (shape.straight_edges == 0) {
-    json["radius_mm"] = shape.Radius();
+    json["radius_mm"] = shape.outline_mm.front().x();  // as Disc() has it, to the bit
   } else {
     json["outline_mm"] = ToJson(shape.outline_mm);
   }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/marker_coverage.h"
+#include "analysis/marker_study_gain.h"
 #include "scenes/built_in.h"
 
 namespace retrolux {
@@ -95,6 +96,35 @@ TEST(ScanPoses, Every5mmFromEndToEnd) {
   EXPECT_EQ(poses.front().translation.z(), 140.0);
   EXPECT_EQ(poses[28].name, "z+0");
   EXPECT_EQ(poses.back().name, "z-140");
+}
+
+// Cell (3, 4): two cameras by the method, one of them by edges too: won. Cell (5, 6): two by edges,
+// one of them by the method too: lost. One more that both see alike.
+TEST(MethodGain, CountsWhatIsWonAndLost) {
+  const auto seen = [](int camera, int row, int col, bool method, bool edges) {
+    PictureResult r = HitAt(0, camera, row, col);
+    if (!method) r.outcome = Outcome::kNotDetected;
+    r.edges_hit = edges;
+    return r;
+  };
+  MarkerStudy study =
+      StudyWith({seen(0, 3, 4, true, true), seen(1, 3, 4, true, false), seen(0, 5, 6, true, true),
+                 seen(1, 5, 6, false, true), seen(0, 7, 8, true, true), seen(1, 7, 8, true, true)});
+  const StudyCoverage coverage(study);
+  EXPECT_FALSE(GainOverEdges(study, coverage).has_value());
+  study.options.method = kRobustMethod;
+  const auto gain = GainOverEdges(study, coverage);
+  ASSERT_TRUE(gain.has_value());
+  EXPECT_EQ(gain->both, 4);
+  EXPECT_EQ(gain->only_method, 1);
+  EXPECT_EQ(gain->only_edges, 1);
+  const SetGain& satisfies = gain->sets.front();
+  EXPECT_EQ(satisfies.set.name, "satisfies");
+  EXPECT_EQ(satisfies.won, 1);
+  EXPECT_EQ(satisfies.lost, 1);
+  const double cell_pct = 200.0 / marker_grid::FaceHalfArea_mm2();
+  EXPECT_NEAR(satisfies.set.percent - satisfies.edges_pct,
+              cell_pct * (marker_grid::CellArea_mm2(3) - marker_grid::CellArea_mm2(5)), 1e-9);
 }
 
 TEST(MarkerStudy, WrongScenesAreRefused) {

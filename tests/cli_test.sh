@@ -201,6 +201,7 @@ head -c 20000 full/camera.png >truncated.png
 refuse "classify a truncated PNG" 'truncated\.png.*expected a' bad classify truncated.png --out bad
 refuse "classify one good and one truncated" 'truncated\.png.*expected a' bad classify full/camera.png truncated.png --out bad
 refuse "classify by an unknown method" 'magic.*expected.*edges' bad classify full/camera.png --method magic --out bad
+refuse "tags of an unknown family" 'magic.*expected one of' bad.json tags magic --out bad.json
 refuse "classify without --out" '--out.*required' bad classify full/camera.png
 refuse "classify to an unwritable place" 'file.*expected' file/x.json classify full/camera.png --out file/x.json
 mkfifo pipe
@@ -228,10 +229,14 @@ cp stdout.txt result.json
 holds "--json of the study is JSON" result.json 'json.schema === "retrolux/marker-study-1"'
 same "study: 1 and 2 threads, identical tables" study1 study2 hits.csv coverage.csv summary.json
 if [ "$(wc -l <study1/hits.csv)" -eq 25 ]; then good "hits.csv: 2 markers x 6 cameras x 2 positions"; else bad "hits.csv: 2 markers x 6 cameras x 2 positions" "$(wc -l <study1/hits.csv) lines"; fi
-head -1 study1/hits.csv | grep -qx 'marker,pose,camera,row,col,x_mm,y_mm,z_mm,incidence_deg,visible_fraction,hit,detected,reason' &&
+head -1 study1/hits.csv | grep -qx 'marker,pose,camera,row,col,x_mm,y_mm,z_mm,incidence_deg,visible_fraction,hit,detected,reason,edges_hit' &&
   good "hits.csv: columns" || bad "hits.csv: columns" "$(head -1 study1/hits.csv)"
 head -1 study1/coverage.csv | grep -qx 'marker,pose,row,col,cameras_hit,satisfies' &&
   good "coverage.csv: columns" || bad "coverage.csv: columns" "$(head -1 study1/coverage.csv)"
+succeed "study with robust" "${study[@]}" --method robust --out study3
+holds "study with robust: the gain over edges" study3/summary.json \
+  'json.method === "robust" && json.gain_over_edges.sets.length === json.sets.length && json.gain_over_edges.pictures.both > 0'
+holds "study with edges: no gain" study1/summary.json 'json.gain_over_edges === null'
 holds "run.json tells how it was made" study1/run.json 'json.schema === "retrolux/run-1" && json.threads === 1 && json.seed === 1'
 [ -s study1/report.html ] && good "report.html" || bad "report.html" "missing"
 
@@ -590,6 +595,7 @@ refuse "dataset export: not done" 'no dataset.json; expected a dataset whose sce
 succeed "dataset run" dataset run whole --threads 1
 holds "dataset: pictures, pixel origin" whole/dataset.json 'json.pixel_origin === "center" && json.pictures === 8 && json.scenes.length === 4 && json.markers > 8'
 succeed "dataset: plan again" dataset plan tiny.json --out shards
+succeed "dataset plan, never run" dataset plan tiny.json --out unfinished
 for i in 2 1; do succeed "dataset run, shard $i of 2" dataset run shards --shard $i/2 --threads 2; done
 same "dataset: shards on 2 threads, the bytes of one run on 1" whole shards dataset.json contact_sheet.png $(cd whole && ls images/*.png)
 succeed "dataset status" --json dataset status shards
@@ -605,8 +611,105 @@ if command -v python3 >/dev/null; then
     bad "dataset: labels read back by Python" "$(tail -3 readback.txt | tr '\n' ' ')"
 fi
 
+# ------------------------------------------------------------------------------------------------------------ evaluate
+succeed "evaluate: both methods" evaluate whole --split all --threads 1 --out scores1
+succeed "evaluate on 2 threads" evaluate whole --split all --threads 2 --out scores2
+same "evaluate: the same on 2 threads" scores1 scores2 evaluation.json misses.csv false_positives.csv
+holds "evaluate: the contract's keys" scores1/evaluation.json \
+  'json.method === "robust" && json.pictures === 8 && json.markers > 8 && json.found <= json.markers && json.misnamed >= 0 && json.false_positives >= 0 && "precision" in json && json.recall === json.found / json.markers && "centroid_rms_px" in json && "centroid_bias_px" in json && Array.isArray(json.by.incidence_deg) && Array.isArray(json.by.size_px)'
+holds "evaluate: methods on the same markers" scores1/evaluation.json \
+  'json.compared.length === 1 && json.compared[0].method === "edges" && json.compared[0].markers === json.markers && json.paired[0].both + json.paired[0].first_only === json.found'
+holds "evaluate: speed in run.json" scores1/run.json 'json.rates.length === 2 && json.rates.every((r) => r.pictures_per_second > 0)'
+[ -s scores1/report.html ] && good "evaluate: report" || bad "evaluate: report" "$(ls scores1)"
+# The method itself and the file that `classify` writes of the same pictures. (8 bits: classify can't know that a 16-bit
+# file holds 12.)
+sed 's/"sensor": {[^}]*}/"sensor": "default"/; s/"scenes": 4/"scenes": 2/; s/160, 120/480, 360/' tiny.json >eight.json
+succeed "dataset of 8 bits" dataset plan eight.json --out eight
+run dataset run eight
+for method in edges robust; do
+  succeed "classify a dataset, $method" classify eight/images/*.png --method $method --out found.json
+  succeed "evaluate --detections, $method" evaluate eight --split all --detections found.json --out from-file
+  succeed "evaluate --method, $method" evaluate eight --split all --method $method --out from-method
+  same "evaluate: --detections gives what --method $method gives" from-file from-method evaluation.json misses.csv
+  holds "evaluate: $method finds some" from-method/evaluation.json 'json.found > 0'
+done
+refuse "evaluate: no dataset" 'scene: no dataset.json; expected a dataset whose scenes are all done' bad evaluate scene --out bad
+refuse "evaluate: unfinished dataset" 'no dataset.json; expected' bad evaluate unfinished --out bad
+refuse "evaluate: no pictures in the split" '--split val: no pictures' bad evaluate whole --split val --out bad
+refuse "evaluate: unknown method" "no method 'guess'; expected one of edges, robust" bad evaluate whole --method guess --out bad
+refuse "evaluate: a method twice" '--method edges twice' bad evaluate whole --method edges --method edges --out bad
+refuse "evaluate: no such file" 'none.json' bad evaluate eight --split all --detections none.json --out bad
+sed 's/"center"/"corner"/' found.json >wrong.json
+refuse "evaluate: another pixel origin" '/pixel_origin: found string "corner"' bad evaluate eight --split all --detections wrong.json --out bad
+node -e 'const f = JSON.parse(fs.readFileSync("found.json")); f.images[1].detections = [{marker: 9, centroid_px: [1, 2]}]; fs.writeFileSync("wrong.json", JSON.stringify(f))'
+refuse "evaluate: unknown marker" '/images/1/detections/0/marker: found 9; expected 1, 2, 3, 4, 5, 6' bad evaluate eight --split all --detections wrong.json --out bad
+node -e 'const f = JSON.parse(fs.readFileSync("found.json")); f.images.pop(); fs.writeFileSync("wrong.json", JSON.stringify(f))'
+refuse "evaluate: a picture is missing" '/images: 1 of the 4 pictures are missing' bad evaluate eight --split all --detections wrong.json --out bad
+node -e 'const f = JSON.parse(fs.readFileSync("found.json")); f.images[2].file = "other.png"; fs.writeFileSync("wrong.json", JSON.stringify(f))'
+refuse "evaluate: a picture of another dataset" "/images/2/file: 'other.png'; expected a picture of the dataset" bad evaluate eight --split all --detections wrong.json --out bad
+cp whole/images/scene-00000_camera-1.png eight/images/scene-00000_camera-2.png
+refuse "evaluate: a picture was changed" 'another picture than the one that was labelled' bad evaluate eight --split all --method edges --out bad
+
+# -------------------------------------------------------------------------------------------------------------- stereo
+# Two cameras 30 degrees apart look at the oval's six markers and its standard one.
+node -e 'const s = JSON.parse(fs.readFileSync("scene/scene.json"));
+const at = (name, deg) => { const c = structuredClone(s.cameras[0]), a = deg * Math.PI / 180; delete c.R; delete c.t_mm;
+  return {...c, name, eye_mm: [1600 * Math.cos(a), 1600 * Math.sin(a), 0], look_at_mm: [0, 0, 0], up: [0, 0, 1]}; };
+s.cameras = [at("left", 15), at("right", -15)];
+for (const m of s.markers) m.at_mm[1] *= 0.6;
+fs.writeFileSync("scene/pair.json", JSON.stringify(s))'
+succeed "render a pair" render scene/pair.json --spp 2 --out pair
+succeed "stereo" stereo pair --threads 1 --out space1
+succeed "stereo on 2 threads" stereo pair --threads 2 --out space2
+same "stereo: the same on 2 threads" space1 space2 stereo.json markers3d.csv constellation.json
+holds "stereo: all markers, the standard one by its position, to 0.3 mm" space1/stereo.json \
+  'json.pixel_origin === "center" && json.constellation === "truth.json" && json.detections === "method robust" && json.markers.length === 7 && json.markers.every((m) => m.at_mm && Math.hypot(...m.error_mm) < 0.3) && json.markers[6].views.every((v) => v.named_by === "position") && json.pose.error.rotation_deg < 0.2'
+[ -s space1/report.html ] && good "stereo: report" || bad "stereo: report" "$(ls space1)"
+succeed "classify for stereo" classify pair/left.png pair/right.png --method robust --out detections.json
+succeed "stereo --detections" stereo pair --detections detections.json --out space3
+same "stereo: --detections gives what the method gives" space1 space3 markers3d.csv
+succeed "stereo --constellation" stereo pair --constellation space1/constellation.json --out space4
+holds "stereo: on its own constellation nothing is left over" space4/stereo.json 'json.pose.fre_mm < 1e-6 && json.markers.every((m) => m.at_mm)'
+mkdir bare && cp pair/cameras.yml pair/*.png bare
+succeed "stereo without truth" stereo bare --out space5
+holds "stereo without truth: six markers, no pose" space5/stereo.json 'json.markers.length === 6 && json.pose === null && json.pose_refusal !== null && json.rms_error_mm === null'
+refuse "stereo: no cameras" 'empty/cameras.yml: no such file; expected cameras.yml' bad stereo empty --out bad
+rm bare/right.png
+refuse "stereo: no picture" 'right.png: no such file; expected the picture of each camera' bad stereo bare --out bad
+cp pair/left.png bare/right.png && sed -i 's/image_width: 640/image_width: 320/' bare/cameras.yml
+refuse "stereo: a picture of another size" 'left.png: 640 x 480 px; expected 320 x 480 as in cameras.yml' bad stereo bare --out bad
+echo 'no yaml' >bare/cameras.yml
+refuse "stereo: cameras.yml that is none" 'bare/cameras.yml: .*; expected' bad stereo bare --out bad
+sed 's/"camera": "left"/"camera": "middle"/' detections.json >wrong.json
+refuse "stereo: detections of another camera" "camera 'middle'; expected one of left, right" bad stereo pair --detections wrong.json --out bad
+sed 's/"marker": 1/"marker": 12/' space1/constellation.json >wrong.json
+refuse "stereo: unknown marker in the constellation" '/markers/0/marker: found 12; expected 1, 2' bad stereo pair --constellation wrong.json --out bad
+refuse "stereo: unknown point" '--point.*corner.*centre.*light' bad stereo pair --point corner --out bad
+succeed "render one camera" render scene/pair.json --camera left --spp 1 --size 64x48 --out single
+refuse "stereo: one camera" 'cameras: one; expected at least two' bad stereo single --out bad
+succeed "study stereo" study stereo --quick --out loop
+holds "study stereo: targets" loop/summary.json 'json.errors.length === 28 && json.targets.length === 12 && json.targets[0].pass'
+succeed "study stereo again, 1 thread" study stereo --quick --threads 1 --out loop1
+same "study stereo: the same on any number of threads" loop loop1 stereo_error.csv budget.csv summary.json
+# Marker 5 is hidden in frames 8 to 11: too short to be lost.
+succeed "study motion" study motion --frames 14 --spp 1 --limit 0.01 --out motion
+holds "study motion: followed, hidden, back; the alarm" motion/summary.json \
+  'json.rms_error_mm < 0.3 && json.hidden.length === 1 && json.hidden[0].marker === 5 && !json.hidden[0].lost && json.hidden[0].back_after_frames === 0 && json.crossing_s > 0 && json.alarm_s !== null'
+[ "$(grep -c missed motion/motion.csv)" -eq 4 ] && good "study motion: missed in four frames" ||
+  bad "study motion: missed in four frames" "$(cut -d, -f1,16- motion/motion.csv | grep missed | head -5 | tr '\n' ' ')"
+[ -s motion/report.html ] && good "study motion: report" || bad "study motion: report" "$(ls motion)"
+
+# ------------------------------------------------------------------------------------------------------- study layout
+succeed "study layout" study layout --poses reference --spp 1 --threads 1 --out layout1
+succeed "study layout on 2 threads" study layout --poses reference --spp 1 --threads 2 --out layout2
+same "study layout: the same on 2 threads" layout1 layout2 layout.json sightings.csv pairs.csv
+holds "study layout: a pair names three" layout1/layout.json \
+  'json.margin >= 0 && json.misnamed === 0 && json.markers.length === 6 && json.poses[0].position_error_mm < 1'
+[ -s layout1/report.html ] && good "study layout: report" || bad "study layout: report" "$(ls layout1)"
+refuse "study layout: no mask" "no object 'mask' that moves with the pose" bad study layout --scene sphere --out bad
+
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export"; do
+for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export" evaluate stereo "study stereo" "study motion" "study layout"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

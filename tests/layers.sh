@@ -36,6 +36,8 @@ only 'assimp/'      scenes/mesh_import.cpp
 only 'CGAL/'        scenes/mesh_reconstruct.cpp
 only 'nlopt'        analysis/placement_refinement.cpp
 only 'unsupported/Eigen' analysis/lobe_fit.cpp
+only 'apriltag/'    classifier/april_tags.cpp
+only 'opencv2/aruco' classifier/aruco_tags.cpp
 
 [ $bad -eq 0 ] && echo "layers: every include points downwards"
 exit $bad

@@ -71,8 +71,7 @@ double RelativeDeviation(const Vec3d& at, bool marker) {
   if (marker) {
     markers.push_back(PlaceMarker(scene, {"marker", 1, "mask", at}, 1));
     markers[0].dark = true;
-    static const MarkerShape no_shape{};
-    markers[0].shape = &no_shape;
+    markers[0].shape = std::make_shared<const MarkerShape>();
   }
   const Vec2d px = *camera.model.Project(at);
   constexpr int kSeeds = 32, kPixels = 16;

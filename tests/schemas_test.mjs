@@ -243,7 +243,33 @@ function checkDataset(schemas, work) {
   fs.writeFileSync(path.join(work, 'tiny-dataset.json'), JSON.stringify(TINY_DATASET));
   run(work, 'dataset', 'plan', 'tiny-dataset.json', '--out', 'dataset');
   run(work, 'dataset', 'run', 'dataset');
+  run(work, 'evaluate', 'dataset', '--split', 'all', '--out', 'evaluation');
   checkRefused(schemas, 'dataset', TINY_DATASET, BAD_DATASETS);
+}
+
+/** Two cameras that look at the oval's markers, and what is made of their pictures. */
+function checkStereo(schemas, work) {
+  const scene = JSON.parse(fs.readFileSync(path.join(work, 'scene-oval', 'scene.json'), 'utf8'));
+  const { R, t_mm, ...camera } = scene.cameras[0];
+  scene.cameras = [15, -15].map((deg) => {
+    const [x, y] = [Math.cos, Math.sin].map((f) => 1600 * f((deg * Math.PI) / 180));
+    return { ...camera, name: `at${deg}`, eye_mm: [x, y, 0], look_at_mm: [0, 0, 0], up: [0, 0, 1] };
+  });
+  fs.writeFileSync(path.join(work, 'scene-oval', 'pair.json'), JSON.stringify(scene));
+  run(work, 'render', 'scene-oval/pair.json', '--spp', '1', '--out', 'pair');
+  const output = run(work, 'stereo', 'pair', '--json', '--out', 'stereo');
+  if (output !== null) checkText(schemas, 'standard output of stereo --json', output);
+  run(work, 'stereo', 'room', '--out', 'stereo-room'); // nothing is found in pictures so small
+  const study = run(work, 'study', 'stereo', '--quick', '--json', '--out', 'stereo-study');
+  if (study !== null) checkText(schemas, 'standard output of study stereo --json', study);
+  run(work, 'study', 'motion', '--frames', '14', '--spp', '1', '--out', 'motion');
+}
+
+/** Six markers on the oval, in one pose. */
+function checkLayout(schemas, work) {
+  const once = ['--poses', 'reference', '--spp', '1', '--max-incidence', '40'];
+  const output = run(work, 'study', 'layout', ...once, '--json', '--out', 'layout');
+  if (output !== null) checkText(schemas, 'standard output of study layout --json', output);
 }
 
 function checkOutputs(schemas, work) {
@@ -261,6 +287,8 @@ function checkOutputs(schemas, work) {
     const output = run(work, 'study', 'markers', ...coarse, '--json', '--out', 'study');
     if (output !== null) checkText(schemas, 'standard output of study markers --json', output);
   }
+  checkStereo(schemas, work);
+  checkLayout(schemas, work);
   checkVault(schemas, work);
   checkDataset(schemas, work);
   const small = ['--triangles', '1280', '--sample-area', '4', '--size', '160x120'];

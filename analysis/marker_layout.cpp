@@ -1,0 +1,301 @@
+#include "analysis/marker_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/stereo_study.h"
+#include "analysis/surface_samples.h"
+#include "classifier/registration.h"
+#include "core/rng.h"
+#include "renderer/marker_truth.h"
+
+namespace retrolux {
+
+namespace {
+
+constexpr const char* kMask = "mask";
+constexpr double kAround_mm = 10.0;
+constexpr int kAroundPoints = 8;
+constexpr size_t kLeast = 3;  // markers that fix a pose
+// What a pose costs, mm, in which no pair sees enough: far above any TRE.
+constexpr double kNoSpare = 1e3, kNoPose = 1e6;
+
+Vec3d MaskInWorld(const Scene& posed) {
+  return posed.Object(kMask).world_from_object.translation;
+}
+
+bool Sees(const RayScene& rays, const CameraModel& camera, const MarkerPlace& place,
+          const RigidTransform& world_from_mask, double min_cosine) {
+  const Vec3d centre = world_from_mask * place.at;
+  const Vec3d normal = world_from_mask.rotation * place.normal;
+  if (normal.dot((camera.Centre() - centre).normalized()) < min_cosine) return false;
+  const Vec3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  for (int i = 0; i <= kAroundPoints; ++i) {
+    const double angle = 2.0 * kPi * i / kAroundPoints;
+    const double radius = i == kAroundPoints ? 0.0 : kAround_mm;
+    const Vec3d x = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
+    // The tangent plane's points lie above a convex surface, so that they do not hide themselves.
+    if (!IsSeen(rays, camera, x, normal)) return false;
+  }
+  return true;
+}
+
+// Two cameras that may work together.
+struct Pair {
+  size_t a, b;
+};
+
+class Search {
+ public:
+  Search(const Scene& scene, const SightTable& table, const std::vector<MarkerPlace>& places,
+         const LayoutOptions& options)
+      : table_(table), places_(places), options_(options) {
+    for (const CameraSpec& camera : scene.cameras) cameras_.push_back(camera.model);
+    for (const Pose& pose : table.poses) masks_.push_back(MaskInWorld(scene.AtPose(pose)));
+    for (size_t a = 0; a < cameras_.size(); ++a) {
+      for (size_t b = a + 1; b < cameras_.size(); ++b) {
+        if (SeparationDeg(cameras_[a], cameras_[b], masks_.front()) >= options.min_separation_deg)
+          pairs_.push_back({a, b});
+      }
+    }
+  }
+
+  // Lower is better: of the worst pose, with a little of the mean.
+  double Cost(const std::vector<size_t>& layout) const {
+    double worst = 0.0, sum = 0.0;
+    for (size_t pose = 0; pose < masks_.size(); ++pose) {
+      const double cost = PoseCost(layout, pose);
+      worst = std::max(worst, cost);
+      sum += cost;
+    }
+    return worst + 0.01 * sum / static_cast<double>(masks_.size());
+  }
+
+  bool Fits(const std::vector<size_t>& layout, size_t place, size_t instead_of) const {
+    for (size_t i = 0; i < layout.size(); ++i) {
+      if (i != instead_of &&
+          (places_[layout[i]].at - places_[place].at).norm() < options_.clearance_mm)
+        return false;
+    }
+    return true;
+  }
+
+  // By how much each pose relies on each place, from the most.
+  std::vector<size_t> ByNeed(const std::vector<size_t>& layout) const {
+    std::vector<std::pair<double, size_t>> needs;
+    for (const size_t place : layout) needs.emplace_back(0.0, place);
+    for (size_t pose = 0; pose < masks_.size(); ++pose) {
+      for (const Pair& pair : pairs_) {
+        const size_t common = Common(layout, pose, pair).size();
+        if (common < kLeast) continue;
+        for (auto& [need, place] : needs)
+          need -= IsCommon(place, pose, pair) ? 1.0 / static_cast<double>(common) : 0.0;
+      }
+    }
+    std::sort(needs.begin(), needs.end());
+    std::vector<size_t> places;
+    for (const auto& [need, place] : needs) places.push_back(place);
+    return places;
+  }
+
+  MarkerLayout Measured(const std::vector<size_t>& layout) const {
+    MarkerLayout result{ByNeed(layout), 0.0, options_.markers};
+    for (size_t pose = 0; pose < masks_.size(); ++pose) {
+      double best = std::numeric_limits<double>::infinity();
+      size_t most = 0;
+      for (const Pair& pair : pairs_) {
+        const std::vector<Vec3d> common = Common(result.places, pose, pair);
+        best = std::min(best, Tre(common, pose, pair));
+        most = std::max(most, common.size());
+      }
+      result.worst_tre_mm = std::max(result.worst_tre_mm, best);
+      result.least_common = std::min(result.least_common, static_cast<int>(most));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<Vec3d> Common(const std::vector<size_t>& layout, size_t pose,
+                            const Pair& pair) const {
+    std::vector<Vec3d> points;
+    for (const size_t place : layout) {
+      if (IsCommon(place, pose, pair)) points.push_back(places_[place].at);
+    }
+    return points;
+  }
+
+  bool IsCommon(size_t place, size_t pose, const Pair& pair) const {
+    return table_.seen[pose][pair.a][place] != 0 && table_.seen[pose][pair.b][place] != 0;
+  }
+
+  double Tre(const std::vector<Vec3d>& points, size_t pose, const Pair& pair) const {
+    return PairTre_mm(points, cameras_[pair.a], cameras_[pair.b], masks_[pose],
+                      options_.point_sigma_px);
+  }
+
+  double PoseCost(const std::vector<size_t>& layout, size_t pose) const {
+    const size_t enough = kLeast + static_cast<size_t>(options_.spare);
+    double best = std::numeric_limits<double>::infinity();
+    for (const Pair& pair : pairs_) {
+      const std::vector<Vec3d> common = Common(layout, pose, pair);
+      double cost = kNoPose * static_cast<double>(1 + kLeast - std::min(kLeast, common.size()));
+      if (common.size() >= kLeast) {
+        const double tre = Tre(common, pose, pair);
+        cost = std::isfinite(tre) ? tre : kNoPose;
+        if (common.size() < enough) cost += kNoSpare * static_cast<double>(enough - common.size());
+      }
+      best = std::min(best, cost);
+    }
+    return best;
+  }
+
+  const SightTable& table_;
+  const std::vector<MarkerPlace>& places_;
+  const LayoutOptions& options_;
+  std::vector<CameraModel> cameras_;
+  std::vector<Vec3d> masks_;  // origin in the world, by pose
+  std::vector<Pair> pairs_;
+};
+
+// Places that some camera sees in some pose.
+std::vector<size_t> UsefulPlaces(const SightTable& table, size_t count) {
+  std::vector<size_t> useful;
+  for (size_t place = 0; place < count; ++place) {
+    const bool seen = std::any_of(table.seen.begin(), table.seen.end(), [&](const auto& cameras) {
+      return std::any_of(cameras.begin(), cameras.end(),
+                         [&](const auto& places) { return places[place] != 0; });
+    });
+    if (seen) useful.push_back(place);
+  }
+  return useful;
+}
+
+std::optional<std::vector<size_t>> RandomLayout(const Search& search,
+                                                const std::vector<size_t>& useful, int markers,
+                                                KeyedRng& rng) {
+  constexpr int kTries = 1000;
+  std::vector<size_t> layout;
+  for (int i = 0; i < kTries && static_cast<int>(layout.size()) < markers; ++i) {
+    const auto n = static_cast<double>(useful.size());
+    const size_t place = useful[static_cast<size_t>(rng.NextDouble() * n)];
+    if (search.Fits(layout, place, layout.size())) layout.push_back(place);
+  }
+  if (static_cast<int>(layout.size()) < markers) return std::nullopt;
+  return layout;
+}
+
+// The best exchange of one place; false if none is better.
+bool Exchange(const Search& search, const std::vector<size_t>& useful, std::vector<size_t>& layout,
+              double& cost) {
+  const size_t n = useful.size();
+  std::vector<double> costs(layout.size() * n, std::numeric_limits<double>::infinity());
+  ParallelFor(static_cast<int64_t>(costs.size()), [&](int64_t index) {
+    const auto i = static_cast<size_t>(index);
+    const size_t which = i / n;
+    if (!search.Fits(layout, useful[i % n], which)) return;
+    std::vector<size_t> other = layout;
+    other[which] = useful[i % n];
+    costs[i] = search.Cost(other);
+  });
+  const auto best = std::min_element(costs.begin(), costs.end());
+  if (!(*best < cost)) return false;
+  const auto i = static_cast<size_t>(best - costs.begin());
+  layout[i / n] = useful[i % n];
+  cost = *best;
+  return true;
+}
+
+}  // namespace
+
+std::vector<MarkerPlace> CandidatePlaces(const Scene& scene, const LayoutOptions& options) {
+  const SurfaceSamples samples =
+      SampleSurface(scene.Object(kMask).mesh, options.candidate_mm2, options.seed);
+  // Meshes of small triangles have a point in each: as many as asked for are drawn by area.
+  const auto wanted = static_cast<size_t>(samples.area_mm2 / options.candidate_mm2);
+  std::vector<MarkerPlace> places;
+  double area = 0.0;
+  for (size_t i = 0; i < samples.Size(); ++i) {
+    area += static_cast<double>(samples.areas_mm2[i]);
+    if (area < options.candidate_mm2 * (static_cast<double>(places.size()) + 0.5)) continue;
+    if (places.size() == wanted) break;
+    places.push_back({samples.positions[i].cast<double>(), samples.normals[i].cast<double>()});
+  }
+  return places;
+}
+
+SightTable SeePlaces(const Scene& scene, const std::vector<Pose>& poses,
+                     const std::vector<MarkerPlace>& places, double max_incidence_deg,
+                     Progress& progress) {
+  SightTable table{poses, {}};
+  const double min_cosine = std::cos(RadFromDeg(max_incidence_deg));
+  progress.Begin("sight", static_cast<int64_t>(poses.size()), "poses");
+  for (const Pose& pose : poses) {
+    const Scene posed = scene.AtPose(pose);
+    const RayScene rays(posed);
+    const RigidTransform& world_from_mask = posed.Object(kMask).world_from_object;
+    auto& cameras = table.seen.emplace_back();
+    for (const CameraSpec& camera : posed.cameras) {
+      auto& seen = cameras.emplace_back(places.size(), 0);
+      ParallelFor(static_cast<int64_t>(places.size()), [&](int64_t i) {
+        const auto place = static_cast<size_t>(i);
+        seen[place] = Sees(rays, camera.model, places[place], world_from_mask, min_cosine);
+      });
+    }
+    progress.Advance(1);
+  }
+  progress.End();
+  return table;
+}
+
+double SeparationDeg(const CameraModel& a, const CameraModel& b, const Vec3d& from) {
+  const Vec3d u = (a.Centre() - from).normalized(), v = (b.Centre() - from).normalized();
+  return DegFromRad(std::acos(std::clamp(u.dot(v), -1.0, 1.0)));
+}
+
+double PairTre_mm(const std::vector<Vec3d>& points, const CameraModel& a, const CameraModel& b,
+                  const Vec3d& mask_in_world, double point_sigma_px) {
+  std::vector<PointPair> pairs;
+  for (const Vec3d& p : points) pairs.push_back({p, p});
+  if (pairs.size() < kLeast || RegistrationFault(pairs))
+    return std::numeric_limits<double>::infinity();
+  const double distance_mm =
+      0.5 * ((a.Centre() - mask_in_world).norm() + (b.Centre() - mask_in_world).norm());
+  const double sigma_mm = point_sigma_px * distance_mm / (0.5 * (a.fx + b.fx));
+  const double fle_mm = RaySigma_mm(sigma_mm, SeparationDeg(a, b, mask_in_world)).norm();
+  return ExpectedTre_mm(pairs, fle_mm, Vec3d::Zero());
+}
+
+MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
+                        const std::vector<MarkerPlace>& places, const LayoutOptions& options,
+                        Progress& progress) {
+  const Search search(scene, table, places, options);
+  const std::vector<size_t> useful = UsefulPlaces(table, places.size());
+  std::optional<std::vector<size_t>> best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  progress.Begin("search", options.starts, "starts");
+  for (int start = 0; start < options.starts; ++start) {
+    KeyedRng rng(CombineKeys(options.seed, static_cast<uint64_t>(start)));
+    auto layout = RandomLayout(search, useful, options.markers, rng);
+    if (layout) {
+      double cost = search.Cost(*layout);
+      while (Exchange(search, useful, *layout, cost)) {
+      }
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = layout;
+      }
+    }
+    progress.Advance(1);
+  }
+  progress.End();
+  if (!best || best_cost >= kNoPose) {
+    throw InputError(fmt::format(
+        "{}: no {} places let a pair of cameras see three markers below {} degrees in every pose; "
+        "expected cameras {} degrees apart or more that share a part of the mask",
+        scene.name, options.markers, options.max_incidence_deg, options.min_separation_deg));
+  }
+  return search.Measured(*best);
+}
+
+}  // namespace retrolux

@@ -1,0 +1,67 @@
+// Where identifiable markers go on a mask so that they work together: in every pose of the patient
+// some pair of cameras must name at least three of them at once, well enough spread for a pose.
+#pragma once
+
+#include "core/parallel.h"
+#include "scenes/scene.h"
+
+namespace retrolux {
+
+struct LayoutOptions {
+  int markers = 6;
+  // A marker counts as named by a camera that it faces to within this. Larger finds layouts whose
+  // markers fade; the study renders what comes of it.
+  double max_incidence_deg = 45.0;
+  double clearance_mm = 25.0;        // between the centres of two markers
+  double min_separation_deg = 15.0;  // of a pair, seen from the mask: closer ones give hot spots
+  double candidate_mm2 = 300.0;      // of the mask's surface for each place that is tried
+  double point_sigma_px = 0.05;      // of a marker in a picture, in each of u and v
+  int spare = 1;                     // markers beyond three that a pair should see, to lose
+  int starts = 6;                    // random layouts that the search sets out from
+  uint64_t seed = 1;
+};
+
+// A place on the mask, in the mask object's frame.
+struct MarkerPlace {
+  Vec3d at = Vec3d::Zero(), normal = Vec3d::UnitX();
+};
+
+// Places all over the mask, stratified by area.
+std::vector<MarkerPlace> CandidatePlaces(const Scene& scene, const LayoutOptions& options);
+
+// Which cameras see which places in which pose: the place and eight points 10 mm around it in the
+// frame and not hidden, the normal within max_incidence_deg.
+struct SightTable {
+  std::vector<Pose> poses;
+  // [pose][camera][place]
+  std::vector<std::vector<std::vector<uint8_t>>> seen;
+};
+SightTable SeePlaces(const Scene& scene, const std::vector<Pose>& poses,
+                     const std::vector<MarkerPlace>& places, double max_incidence_deg,
+                     Progress& progress);
+
+// Root of the expected squared error of the mask's origin, mm, by a pose from these points (mask
+// frame), seen by two cameras: Fitzpatrick's TRE with the localisation errors of two rays
+// (analysis/stereo_study.h, RaySigma_mm). Infinite for fewer than three points or points on a line.
+double PairTre_mm(const std::vector<Vec3d>& points, const CameraModel& a, const CameraModel& b,
+                  const Vec3d& mask_in_world, double point_sigma_px);
+
+// Angle between two cameras, seen from a point, deg.
+double SeparationDeg(const CameraModel& a, const CameraModel& b, const Vec3d& from);
+
+struct MarkerLayout {
+  // Of the candidates, the one that is needed most first: where a pair sees few markers, each of
+  // them counts.
+  std::vector<size_t> places;
+  double worst_tre_mm = 0.0;   // over the poses, of the best pair in each
+  int least_common = 0;        // over the poses, markers that the pair with the most sees
+};
+
+// The layout whose worst pose is best: first that a pair sees 3 + spare markers, then the TRE.
+// Exchanges one place at a time, the best of all, from random layouts, until none is better. The
+// same on any number of threads. InputError if no layout lets a pair see three in every pose.
+MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
+                        const std::vector<MarkerPlace>& places, const LayoutOptions& options,
+                        Progress& progress);
+
+}  // namespace retrolux
