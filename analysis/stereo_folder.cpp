@@ -39,16 +39,20 @@ void FindMarkers(const StereoFolderOptions& options, std::vector<CameraView>& vi
                            "the picture of each camera of cameras.yml, or --detections FILE");
     }
   }
-  ParallelFor(static_cast<int64_t>(views.size()), [&](int64_t index) {
-    const auto i = static_cast<size_t>(index);
-    const DigitalImage picture = ReadGrey(pictures[i]);
+  // One after the other, so that of several wrong pictures the first is named.
+  std::vector<DigitalImage> images;
+  for (size_t i = 0; i < views.size(); ++i) {
+    images.push_back(ReadGrey(pictures[i]));
     const CameraModel& camera = views[i].camera;
-    if (picture.dn.width != camera.width || picture.dn.height != camera.height) {
-      throw InputError::At(pictures[i], "",
-                           fmt::format("{} x {} px", picture.dn.width, picture.dn.height),
+    const auto& dn = images.back().dn;
+    if (dn.width != camera.width || dn.height != camera.height) {
+      throw InputError::At(pictures[i], "", fmt::format("{} x {} px", dn.width, dn.height),
                            fmt::format("{} x {} as in cameras.yml", camera.width, camera.height));
     }
-    views[i].detections = method(picture, DefaultMarkerSet(), nullptr);
+  }
+  ParallelFor(static_cast<int64_t>(views.size()), [&](int64_t index) {
+    const auto i = static_cast<size_t>(index);
+    views[i].detections = method(images[i], DefaultMarkerSet(), nullptr);
   });
 }
 
