@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/stereo_bench.h"
+#include "classifier/marker_point.h"
 #include "classifier/method.h"
 #include "classifier/stereo.h"
 #include "core/atomic_file.h"
@@ -57,19 +58,20 @@ std::vector<Pose> SearchPoses(const LayoutStudyOptions& options) {
   return chosen;
 }
 
-// The shape with the most edges, which is named most surely, where it is needed most.
-std::vector<MarkerSpec> Markers(const std::vector<MarkerPlace>& places, const MarkerLayout& layout,
-                                const LayoutStudyOptions& options, const MarkerSet& set) {
+std::vector<MarkerShape> IdentifiableShapes(const MarkerSet& set) {
   std::vector<MarkerShape> shapes;
   for (const MarkerShape& shape : set.shapes) {
     if (shape.number != 0) shapes.push_back(shape);
   }
-  std::stable_sort(shapes.begin(), shapes.end(), [](const MarkerShape& a, const MarkerShape& b) {
-    return a.straight_edges > b.straight_edges;
-  });
+  return shapes;
+}
+
+std::vector<MarkerSpec> Markers(const std::vector<MarkerPlace>& places, const MarkerLayout& layout,
+                                const LayoutStudyOptions& options, const MarkerSet& set) {
+  const std::vector<MarkerShape> shapes = IdentifiableShapes(set);
   std::vector<MarkerSpec> markers;
   for (size_t i = 0; i < layout.places.size(); ++i) {
-    const int number = shapes.at(i).number;
+    const int number = shapes[i].number;
     MarkerSpec marker{fmt::format("marker-{}", number), number, kMask, places[layout.places[i]].at};
     marker.material = options.material;
     markers.push_back(std::move(marker));
@@ -151,11 +153,12 @@ LayoutPair PairOf(const Stage& stage, const std::vector<Seen>& seen, size_t a, s
   pair.a = a;
   pair.b = b;
   pair.separation_deg = SeparationDeg(first, second, origin);
-  std::vector<Vec3d> points;
+  std::vector<SharedMarker> points;
   for (size_t m = 0; m < stage.placed.size(); ++m) {
     if (!IsNamed(seen[a].markers[m]) || !IsNamed(seen[b].markers[m])) continue;
     pair.common.push_back(seen[a].markers[m].marker);
-    points.push_back(stage.constellation[m].at);
+    points.push_back({stage.constellation[m].at,
+                      RelativeSigma(stage.placed[m].shape->straight_edges, MarkerPoint::kCentre)});
   }
   const double tre = PairTre_mm(points, first, second, origin, options.layout.point_sigma_px);
   pair.expected_tre_mm = std::isfinite(tre) ? tre : 0.0;
@@ -280,7 +283,7 @@ const LayoutPair& LayoutStudy::Best(size_t pose) const {
 }
 
 int LayoutStudy::Margin() const {
-  int least = options.layout.markers;
+  auto least = static_cast<int>(markers.size());
   for (size_t pose = 0; pose < options.poses.size(); ++pose)
     least = std::min(least, static_cast<int>(Best(pose).common.size()));
   return least - 3;
@@ -294,8 +297,12 @@ LayoutStudy RunLayoutStudy(const Scene& scene, const LayoutStudyOptions& options
   study.options = options;
   study.scene = scene.name;
   for (const CameraSpec& camera : room.cameras) study.cameras.push_back(camera.model.name);
-  const std::vector<MarkerPlace> places = CandidatePlaces(room, options.layout);
-  study.found = Search(room, options, places, progress);
+  LayoutOptions& layout = study.options.layout;
+  layout.relative_sigma.clear();
+  for (const MarkerShape& shape : IdentifiableShapes(*room.marker_set))
+    layout.relative_sigma.push_back(RelativeSigma(shape.straight_edges, MarkerPoint::kCentre));
+  const std::vector<MarkerPlace> places = CandidatePlaces(room, layout);
+  study.found = Search(room, study.options, places, progress);
   room.markers = study.markers = Markers(places, study.found, options, *room.marker_set);
 
   std::vector<Task> tasks;

@@ -16,8 +16,8 @@ struct LayoutStudyOptions {
   std::string method = "robust";
   std::string material = "retro_bead";
   int samples_per_pixel = 8;
-  uint64_t seed = 1;  // of light transport, noise and search
-  LayoutOptions layout;
+  uint64_t seed = 1;             // of light transport, noise and search
+  LayoutOptions layout;          // relative_sigma follows from the marker set
   double search_step_mm = 20.0;  // the search looks at every such step of the poses
 };
 

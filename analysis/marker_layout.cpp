@@ -20,6 +20,8 @@ constexpr int kAroundPoints = 8;
 constexpr size_t kLeast = 3;  // markers that fix a pose
 // What a pose costs, mm, in which no pair sees enough: far above any TRE.
 constexpr double kNoSpare = 1e3, kNoPose = 1e6;
+// For each good marker less than three: those with few edges are also left unnamed more often.
+constexpr double kFewGood = 3e2;
 
 Vec3d MaskInWorld(const Scene& posed) {
   return posed.Object(kMask).world_from_object.translation;
@@ -81,31 +83,13 @@ class Search {
     return true;
   }
 
-  // By how much each pose relies on each place, from the most.
-  std::vector<size_t> ByNeed(const std::vector<size_t>& layout) const {
-    std::vector<std::pair<double, size_t>> needs;
-    for (const size_t place : layout) needs.emplace_back(0.0, place);
-    for (size_t pose = 0; pose < masks_.size(); ++pose) {
-      for (const Pair& pair : pairs_) {
-        const size_t common = Common(layout, pose, pair).size();
-        if (common < kLeast) continue;
-        for (auto& [need, place] : needs)
-          need -= IsCommon(place, pose, pair) ? 1.0 / static_cast<double>(common) : 0.0;
-      }
-    }
-    std::sort(needs.begin(), needs.end());
-    std::vector<size_t> places;
-    for (const auto& [need, place] : needs) places.push_back(place);
-    return places;
-  }
-
   MarkerLayout Measured(const std::vector<size_t>& layout) const {
-    MarkerLayout result{ByNeed(layout), 0.0, options_.markers};
+    MarkerLayout result{layout, 0.0, static_cast<int>(layout.size())};
     for (size_t pose = 0; pose < masks_.size(); ++pose) {
       double best = std::numeric_limits<double>::infinity();
       size_t most = 0;
       for (const Pair& pair : pairs_) {
-        const std::vector<Vec3d> common = Common(result.places, pose, pair);
+        const std::vector<SharedMarker> common = Common(layout, pose, pair);
         best = std::min(best, Tre(common, pose, pair));
         most = std::max(most, common.size());
       }
@@ -116,21 +100,19 @@ class Search {
   }
 
  private:
-  std::vector<Vec3d> Common(const std::vector<size_t>& layout, size_t pose,
-                            const Pair& pair) const {
-    std::vector<Vec3d> points;
-    for (const size_t place : layout) {
-      if (IsCommon(place, pose, pair)) points.push_back(places_[place].at);
+  std::vector<SharedMarker> Common(const std::vector<size_t>& layout, size_t pose,
+                                   const Pair& pair) const {
+    std::vector<SharedMarker> common;
+    const auto& seen = table_.seen[pose];
+    for (size_t i = 0; i < layout.size(); ++i) {
+      if (seen[pair.a][layout[i]] != 0 && seen[pair.b][layout[i]] != 0)
+        common.push_back({places_[layout[i]].at, options_.relative_sigma[i]});
     }
-    return points;
+    return common;
   }
 
-  bool IsCommon(size_t place, size_t pose, const Pair& pair) const {
-    return table_.seen[pose][pair.a][place] != 0 && table_.seen[pose][pair.b][place] != 0;
-  }
-
-  double Tre(const std::vector<Vec3d>& points, size_t pose, const Pair& pair) const {
-    return PairTre_mm(points, cameras_[pair.a], cameras_[pair.b], masks_[pose],
+  double Tre(const std::vector<SharedMarker>& common, size_t pose, const Pair& pair) const {
+    return PairTre_mm(common, cameras_[pair.a], cameras_[pair.b], masks_[pose],
                       options_.point_sigma_px);
   }
 
@@ -138,12 +120,15 @@ class Search {
     const size_t enough = kLeast + static_cast<size_t>(options_.spare);
     double best = std::numeric_limits<double>::infinity();
     for (const Pair& pair : pairs_) {
-      const std::vector<Vec3d> common = Common(layout, pose, pair);
+      const std::vector<SharedMarker> common = Common(layout, pose, pair);
       double cost = kNoPose * static_cast<double>(1 + kLeast - std::min(kLeast, common.size()));
       if (common.size() >= kLeast) {
         const double tre = Tre(common, pose, pair);
         cost = std::isfinite(tre) ? tre : kNoPose;
         if (common.size() < enough) cost += kNoSpare * static_cast<double>(enough - common.size());
+        const auto good = static_cast<size_t>(std::count_if(
+            common.begin(), common.end(), [](const auto& m) { return m.relative_sigma <= 1.0; }));
+        if (good < kLeast) cost += kFewGood * static_cast<double>(kLeast - good);
       }
       best = std::min(best, cost);
     }
@@ -172,36 +157,49 @@ std::vector<size_t> UsefulPlaces(const SightTable& table, size_t count) {
 }
 
 std::optional<std::vector<size_t>> RandomLayout(const Search& search,
-                                                const std::vector<size_t>& useful, int markers,
+                                                const std::vector<size_t>& useful, size_t markers,
                                                 KeyedRng& rng) {
   constexpr int kTries = 1000;
   std::vector<size_t> layout;
-  for (int i = 0; i < kTries && static_cast<int>(layout.size()) < markers; ++i) {
+  for (int i = 0; i < kTries && layout.size() < markers; ++i) {
     const auto n = static_cast<double>(useful.size());
     const size_t place = useful[static_cast<size_t>(rng.NextDouble() * n)];
     if (search.Fits(layout, place, layout.size())) layout.push_back(place);
   }
-  if (static_cast<int>(layout.size()) < markers) return std::nullopt;
+  if (layout.size() < markers) return std::nullopt;
   return layout;
 }
 
-// The best exchange of one place; false if none is better.
+// All layouts that differ in one place, or in which two markers have changed places.
+std::vector<std::vector<size_t>> Neighbours(const Search& search, const std::vector<size_t>& useful,
+                                            const std::vector<size_t>& layout) {
+  std::vector<std::vector<size_t>> neighbours;
+  for (size_t i = 0; i < layout.size(); ++i) {
+    for (const size_t place : useful) {
+      if (!search.Fits(layout, place, i)) continue;
+      neighbours.push_back(layout);
+      neighbours.back()[i] = place;
+    }
+    for (size_t k = 0; k < i; ++k) {
+      neighbours.push_back(layout);
+      std::swap(neighbours.back()[i], neighbours.back()[k]);
+    }
+  }
+  return neighbours;
+}
+
+// The best exchange; false if none is better.
 bool Exchange(const Search& search, const std::vector<size_t>& useful, std::vector<size_t>& layout,
               double& cost) {
-  const size_t n = useful.size();
-  std::vector<double> costs(layout.size() * n, std::numeric_limits<double>::infinity());
+  std::vector<std::vector<size_t>> neighbours = Neighbours(search, useful, layout);
+  std::vector<double> costs(neighbours.size());
   ParallelFor(static_cast<int64_t>(costs.size()), [&](int64_t index) {
     const auto i = static_cast<size_t>(index);
-    const size_t which = i / n;
-    if (!search.Fits(layout, useful[i % n], which)) return;
-    std::vector<size_t> other = layout;
-    other[which] = useful[i % n];
-    costs[i] = search.Cost(other);
+    costs[i] = search.Cost(neighbours[i]);
   });
   const auto best = std::min_element(costs.begin(), costs.end());
-  if (!(*best < cost)) return false;
-  const auto i = static_cast<size_t>(best - costs.begin());
-  layout[i / n] = useful[i % n];
+  if (best == costs.end() || !(*best < cost)) return false;
+  layout = std::move(neighbours[static_cast<size_t>(best - costs.begin())]);
   cost = *best;
   return true;
 }
@@ -253,17 +251,23 @@ double SeparationDeg(const CameraModel& a, const CameraModel& b, const Vec3d& fr
   return DegFromRad(std::acos(std::clamp(u.dot(v), -1.0, 1.0)));
 }
 
-double PairTre_mm(const std::vector<Vec3d>& points, const CameraModel& a, const CameraModel& b,
-                  const Vec3d& mask_in_world, double point_sigma_px) {
+double PairTre_mm(const std::vector<SharedMarker>& markers, const CameraModel& a,
+                  const CameraModel& b, const Vec3d& mask_in_world, double point_sigma_px) {
   std::vector<PointPair> pairs;
-  for (const Vec3d& p : points) pairs.push_back({p, p});
+  double weights = 0.0;
+  for (const SharedMarker& m : markers) {
+    pairs.push_back({m.at, m.at, 1.0 / (m.relative_sigma * m.relative_sigma)});
+    weights += pairs.back().weight;
+  }
   if (pairs.size() < kLeast || RegistrationFault(pairs))
     return std::numeric_limits<double>::infinity();
   const double distance_mm =
       0.5 * ((a.Centre() - mask_in_world).norm() + (b.Centre() - mask_in_world).norm());
   const double sigma_mm = point_sigma_px * distance_mm / (0.5 * (a.fx + b.fx));
   const double fle_mm = RaySigma_mm(sigma_mm, SeparationDeg(a, b, mask_in_world)).norm();
-  return ExpectedTre_mm(pairs, fle_mm, Vec3d::Zero());
+  // ExpectedTre_mm asks for that of a point of mean weight.
+  const double mean_weight = weights / static_cast<double>(pairs.size());
+  return ExpectedTre_mm(pairs, fle_mm / std::sqrt(mean_weight), Vec3d::Zero());
 }
 
 MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
@@ -276,7 +280,7 @@ MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
   progress.Begin("search", options.starts, "starts");
   for (int start = 0; start < options.starts; ++start) {
     KeyedRng rng(CombineKeys(options.seed, static_cast<uint64_t>(start)));
-    auto layout = RandomLayout(search, useful, options.markers, rng);
+    auto layout = RandomLayout(search, useful, options.relative_sigma.size(), rng);
     if (layout) {
       double cost = search.Cost(*layout);
       while (Exchange(search, useful, *layout, cost)) {
@@ -293,7 +297,8 @@ MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
     throw InputError(fmt::format(
         "{}: no {} places let a pair of cameras see three markers below {} degrees in every pose; "
         "expected cameras {} degrees apart or more that share a part of the mask",
-        scene.name, options.markers, options.max_incidence_deg, options.min_separation_deg));
+        scene.name, options.relative_sigma.size(), options.max_incidence_deg,
+        options.min_separation_deg));
   }
   return search.Measured(*best);
 }

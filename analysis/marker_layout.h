@@ -8,7 +8,9 @@
 namespace retrolux {
 
 struct LayoutOptions {
-  int markers = 6;
+  // How uncertain the middle of each marker is, of that of a good one (classifier/marker_point.h):
+  // as many as there are markers.
+  std::vector<double> relative_sigma = std::vector<double>(6, 1.0);
   // A marker counts as named by a camera that it faces to within this. Larger finds layouts whose
   // markers fade; the study renders what comes of it.
   double max_incidence_deg = 45.0;
@@ -40,26 +42,32 @@ SightTable SeePlaces(const Scene& scene, const std::vector<Pose>& poses,
                      const std::vector<MarkerPlace>& places, double max_incidence_deg,
                      Progress& progress);
 
-// Root of the expected squared error of the mask's origin, mm, by a pose from these points (mask
-// frame), seen by two cameras: Fitzpatrick's TRE with the localisation errors of two rays
-// (analysis/stereo_study.h, RaySigma_mm). Infinite for fewer than three points or points on a line.
-double PairTre_mm(const std::vector<Vec3d>& points, const CameraModel& a, const CameraModel& b,
-                  const Vec3d& mask_in_world, double point_sigma_px);
+// A marker that a pair of cameras sees: its place in the mask's frame, its LayoutOptions::
+// relative_sigma.
+struct SharedMarker {
+  Vec3d at = Vec3d::Zero();
+  double relative_sigma = 1.0;
+};
+
+// Root of the expected squared error of the mask's origin, mm, by a pose from these markers, seen
+// by two cameras: Fitzpatrick's TRE with the localisation errors of two rays
+// (analysis/stereo_study.h, RaySigma_mm). Infinite for fewer than three or for all on a line.
+double PairTre_mm(const std::vector<SharedMarker>& markers, const CameraModel& a,
+                  const CameraModel& b, const Vec3d& mask_in_world, double point_sigma_px);
 
 // Angle between two cameras, seen from a point, deg.
 double SeparationDeg(const CameraModel& a, const CameraModel& b, const Vec3d& from);
 
 struct MarkerLayout {
-  // Of the candidates, the one that is needed most first: where a pair sees few markers, each of
-  // them counts.
-  std::vector<size_t> places;
+  std::vector<size_t> places;  // of the candidates, by marker
   double worst_tre_mm = 0.0;   // over the poses, of the best pair in each
   int least_common = 0;        // over the poses, markers that the pair with the most sees
 };
 
 // The layout whose worst pose is best: first that a pair sees 3 + spare markers, then the TRE.
-// Exchanges one place at a time, the best of all, from random layouts, until none is better. The
-// same on any number of threads. InputError if no layout lets a pair see three in every pose.
+// Exchanges one place, or two markers, at a time, the best exchange of all, from random layouts,
+// until none is better. The same on any number of threads. InputError if no layout lets a pair see
+// three in every pose.
 MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
                         const std::vector<MarkerPlace>& places, const LayoutOptions& options,
                         Progress& progress);

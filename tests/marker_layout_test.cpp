@@ -34,11 +34,21 @@ TEST(PairTre, IsFitzpatricksAtTheCentre) {
   const CameraModel& b = scene.cameras[1].model;
   EXPECT_NEAR(SeparationDeg(a, b, Vec3d::Zero()), 30.0, 1e-9);
   const double fle = RaySigma_mm(0.05 * 1600.0 / a.fx, 30.0).norm();
-  const std::vector<Vec3d> square = {{0, 40, 40}, {0, -40, 40}, {0, -40, -40}, {0, 40, -40}};
+  std::vector<SharedMarker> square = {
+      {{0, 40, 40}}, {{0, -40, 40}}, {{0, -40, -40}}, {{0, 40, -40}}};
   EXPECT_NEAR(PairTre_mm(square, a, b, Vec3d::Zero(), 0.05), fle / 2.0, 1e-9);
-  EXPECT_TRUE(
-      std::isinf(PairTre_mm({{0, 0, 0}, {0, 0, 10}, {0, 0, 20}}, a, b, Vec3d::Zero(), 0.05)));
-  EXPECT_TRUE(std::isinf(PairTre_mm({{0, 0, 0}, {0, 10, 10}}, a, b, Vec3d::Zero(), 0.05)));
+  const std::vector<SharedMarker> line = {{{0, 0, 0}}, {{0, 0, 10}}, {{0, 0, 20}}};
+  EXPECT_TRUE(std::isinf(PairTre_mm(line, a, b, Vec3d::Zero(), 0.05)));
+  const std::vector<SharedMarker> two = {{{0, 0, 0}}, {{0, 10, 10}}};
+  EXPECT_TRUE(std::isinf(PairTre_mm(two, a, b, Vec3d::Zero(), 0.05)));
+  // All three times as uncertain: so is the pose.
+  for (SharedMarker& m : square) m.relative_sigma = 3.0;
+  EXPECT_NEAR(PairTre_mm(square, a, b, Vec3d::Zero(), 0.05), 3.0 * fle / 2.0, 1e-9);
+  // Two of them, at opposite corners, good again: the weighted centre stays at the target, where
+  // 1 / TRE^2 is the sum of the weights, 2 + 2 / 9, over FLE^2.
+  square[0].relative_sigma = square[2].relative_sigma = 1.0;
+  EXPECT_NEAR(PairTre_mm(square, a, b, Vec3d::Zero(), 0.05), fle / std::sqrt(2.0 + 2.0 / 9.0),
+              1e-9);
 }
 
 // The front of the oval is seen by both, its back by none, and the side 40 degrees to the left of
@@ -60,17 +70,17 @@ TEST(FindLayout, SpreadsMarkersThatThePairSees) {
   LayoutOptions options;
   options.candidate_mm2 = 600.0;
   options.starts = 2;
-  options.markers = 4;
+  options.relative_sigma = {1.0, 1.0, 1.0, 5.0};
   const std::vector<MarkerPlace> places = CandidatePlaces(scene, options);
   const SightTable table = SeePlaces(scene, poses, places, 45.0, NoProgress());
   const MarkerLayout layout = FindLayout(scene, table, places, options, NoProgress());
   EXPECT_EQ(layout.least_common, 4);
-  std::vector<Vec3d> points;
+  std::vector<SharedMarker> points;
   for (const size_t place : layout.places) {
     EXPECT_TRUE(table.seen[0][0][place] && table.seen[0][1][place]);
-    for (const Vec3d& other : points)
-      EXPECT_GE((other - places[place].at).norm(), options.clearance_mm);
-    points.push_back(places[place].at);
+    for (const SharedMarker& other : points)
+      EXPECT_GE((other.at - places[place].at).norm(), options.clearance_mm);
+    points.push_back({places[place].at, options.relative_sigma[points.size()]});
   }
   EXPECT_NEAR(layout.worst_tre_mm,
               PairTre_mm(points, scene.cameras[0].model, scene.cameras[1].model, Vec3d::Zero(),
@@ -80,11 +90,11 @@ TEST(FindLayout, SpreadsMarkersThatThePairSees) {
   for (size_t i = 0; i < points.size(); ++i) {
     for (size_t place = 0; place < places.size(); ++place) {
       if (!table.seen[0][0][place] || !table.seen[0][1][place]) continue;
-      std::vector<Vec3d> other = points;
-      other[i] = places[place].at;
+      std::vector<SharedMarker> other = points;
+      other[i].at = places[place].at;
       bool apart = true;
       for (size_t k = 0; k < other.size(); ++k)
-        apart &= k == i || (other[k] - other[i]).norm() >= options.clearance_mm;
+        apart &= k == i || (other[k].at - other[i].at).norm() >= options.clearance_mm;
       if (!apart) continue;
       EXPECT_GE(PairTre_mm(other, scene.cameras[0].model, scene.cameras[1].model, Vec3d::Zero(),
                            options.point_sigma_px),
