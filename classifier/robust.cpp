@@ -123,7 +123,8 @@ std::vector<JudgedPattern> JudgePatterns(const DigitalImage& image, const Marker
   MeasureGradient(image, field);
   FindEdgeBands(field, options.min_slope_sigma, bands);
   const std::vector<ShapeModel> models = ModelsOf(markers);
-  Judge judge(image, models, markers.dark_square_mm / markers.size_mm, options, options.black_dn.value_or(Darkest(field.smooth)));
+  Judge judge(image, models, markers.dark_square_mm / markers.size_mm, options,
+              options.black_dn.value_or(Darkest(field.smooth)));
   std::vector<JudgedPattern> judged;
   const auto decide = [&](bool dark) {
     for (const Pattern& pattern : FindEveryPattern(field, bands, limits)) {

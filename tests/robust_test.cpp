@@ -541,8 +541,9 @@ TEST(Coverage, KeepsTheAreaAndDiffersAsItsDerivativesSay) {
   }
 }
 
-// A square of 1.4 times the marker's side (half 14 px) is brighter than what lies around it by 100 DN:
-// so all 32 points say, and none on an even ground. Its contrast is asked for: 0.3 of 400 is more.
+// A square of 1.4 times the marker's side (half 14 px) is brighter than what lies around it by 100
+// DN: so all 32 points say, and none on an even ground. Its contrast is asked for: 0.3 of 400 is
+// more.
 TEST(DarkFrame, IsABrightSquareOnSomethingDark) {
   const OutlineMap map = OutlineMap::Affine({40.0, 40.0}, 10.0 * Eigen::Matrix2d::Identity());
   FloatPlane negative(81, 81, 100.0f), even(81, 81, 0.0f);
