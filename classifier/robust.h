@@ -8,6 +8,7 @@
 //   coverage.h     a marker as the sensor sees it
 //   marker_fit.h   the fit of place, bend, blur and light
 //   ground_step.h  whether something lies over the marker
+//   dark_frame.h   whether a dark marker lies on a bright square of its own
 //   evidence.h     what speaks for and against a name, and its probability
 //   judge.h        the decision on one pattern
 #pragma once
