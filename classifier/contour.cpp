@@ -14,19 +14,16 @@ struct Gate {
       dy;  // heading; the dark pixel is at (x - dy, y + dx), to the right of it when y points down
 };
 
+template <typename Real>
 class Tracer {
  public:
-  Tracer(const FloatPlane& plane, const PixelBox& box, const LevelPlane& level)
-      : box_(box),
-        height_(box.x1 - box.x0, box.y1 - box.y0),
-        passed_(height_.width, height_.height, 0) {
-    for (int y = 0; y < height_.height; ++y) {
-      for (int x = 0; x < height_.width; ++x) {
-        const Vec2d px(x + box.x0, y + box.y0);
-        height_(x, y) = static_cast<double>(plane(x + box.x0, y + box.y0)) - level.At(px);
-      }
-    }
-  }
+  // `height`: above the level, DN, from the pixel `origin` of the picture on.
+  Tracer(const Plane<Real>& height, const PixelBox& origin, const Plane<int>* steep)
+      : height_(height),
+        x0_(origin.x0),
+        y0_(origin.y0),
+        steep_(steep),
+        passed_(height.width, height.height, 0) {}
 
   // Every closed contour goes north between a bright pixel and a dark one to its right at least
   // once.
@@ -34,6 +31,7 @@ class Tracer {
     std::vector<Polygon> contours;
     for (int y = 0; y < height_.height; ++y) {
       for (int x = 0; x + 1 < height_.width; ++x) {
+        if (steep_ != nullptr && (*steep_)(x + x0_, y + y0_) == 0) continue;
         if (!Bright(x, y) || Bright(x + 1, y) || passed_(x, y)) continue;
         if (auto contour = Follow({x, y, 0, -1})) contours.push_back(std::move(*contour));
       }
@@ -42,13 +40,14 @@ class Tracer {
   }
 
  private:
-  bool Bright(int x, int y) const { return height_(x, y) > 0.0; }
+  double Height(int x, int y) const { return static_cast<double>(height_(x, y)); }
+  bool Bright(int x, int y) const { return height_(x, y) > Real{0}; }
 
   Vec2d Crossing(const Gate& g) const {
-    const double left = height_(g.x, g.y);
-    const double right = height_(g.x - g.dy, g.y + g.dx);
+    const double left = Height(g.x, g.y);
+    const double right = Height(g.x - g.dy, g.y + g.dx);
     const double t = left / (left - right);
-    return {box_.x0 + g.x - t * g.dy, box_.y0 + g.y + t * g.dx};
+    return {x0_ + g.x - t * g.dy, y0_ + g.y + t * g.dx};
   }
 
   // The next gate of the square in front, or nothing at the end of the box.
@@ -60,10 +59,9 @@ class Tracer {
     const bool right = Bright(rx, ry);
     if (left && !right) return Gate{lx, ly, g.dx, g.dy};
     // Two bright pixels across a corner are connected if the middle of the square is bright.
-    const bool turn_right =
-        left || (right && height_(lx, ly) + height_(rx, ry) + height_(g.x, g.y) +
-                                  height_(g.x - g.dy, g.y + g.dx) >
-                              0.0);
+    const bool turn_right = left || (right && Height(lx, ly) + Height(rx, ry) + Height(g.x, g.y) +
+                                                      Height(g.x - g.dy, g.y + g.dx) >
+                                                  0.0);
     if (turn_right) return Gate{rx, ry, -g.dy, g.dx};
     return Gate{g.x, g.y, g.dy, -g.dx};
   }
@@ -84,8 +82,9 @@ class Tracer {
     return contour;
   }
 
-  PixelBox box_;
-  Plane<double> height_;  // above the level, DN
+  const Plane<Real>& height_;
+  int x0_, y0_;
+  const Plane<int>* steep_;
   Plane<uint8_t> passed_;
 };
 
@@ -93,7 +92,18 @@ class Tracer {
 
 std::vector<Polygon> TraceContours(const FloatPlane& plane, const PixelBox& box,
                                    const LevelPlane& level) {
-  return Tracer(plane, box, level).Trace();
+  Plane<double> height(box.x1 - box.x0, box.y1 - box.y0);
+  for (int y = 0; y < height.height; ++y) {
+    for (int x = 0; x < height.width; ++x) {
+      const Vec2d px(x + box.x0, y + box.y0);
+      height(x, y) = static_cast<double>(plane(x + box.x0, y + box.y0)) - level.At(px);
+    }
+  }
+  return Tracer(height, box, nullptr).Trace();
+}
+
+std::vector<Polygon> TraceSteepContours(const FloatPlane& relief, const Plane<int>& steep) {
+  return Tracer(relief, PixelBox{}, &steep).Trace();
 }
 
 double Perimeter(const Polygon& contour) {

@@ -28,6 +28,8 @@ struct LevelPlane {
 // not given.
 std::vector<Polygon> TraceContours(const FloatPlane& plane, const PixelBox& box,
                                    const LevelPlane& level);
+// The same in the whole of `relief` at the level 0, looked for where `steep` is not 0.
+std::vector<Polygon> TraceSteepContours(const FloatPlane& relief, const Plane<int>& steep);
 
 // Area in px2, positive if the points (y down) run counter-clockwise for who looks at the picture.
 inline double ScreenArea(const Polygon& contour) {

@@ -31,8 +31,10 @@ std::vector<float> BlurWeights(double variance) {
   return weights;
 }
 
-void AddScaled(float* sum, float factor, const float* from) {
-  for (int c = 0; c < Coverage::kChannels; ++c) sum[c] += factor * from[c];
+using Channels = Eigen::Array<float, Coverage::kChannels, 1>;
+
+Eigen::Map<Channels> ChannelsAt(std::vector<float>& data, size_t index) {
+  return Eigen::Map<Channels>(&data[index]);
 }
 
 }  // namespace
@@ -56,8 +58,7 @@ bool Coverage::Render(const Polygon& outline, const OutlineMap& map, int width, 
   const Vec2d half(0.5, 0.5);
   for (size_t i = 0; i < points.size(); ++i) {
     const size_t j = (i + 1) % points.size();
-    AddPiece(points[i] + half, points[j] + half, OutlineMap::TermsAt(outline[i]),
-             OutlineMap::TermsAt(outline[j]), sense);
+    AddPiece(points[i] + half, points[j] + half, outline[i], outline[j], sense);
   }
   SumRows();
   if (variance_px2 > 0.0) Blur(covered, std::min(variance_px2, kMaxVariance_px2));
@@ -66,11 +67,11 @@ bool Coverage::Render(const Polygon& outline, const OutlineMap& map, int width, 
 
 // Cut where it crosses from one pixel into the next. A part that goes down by dy covers dy of all
 // pixels to its right, and of its own what lies to its right (the signs as for an outline with
-// positive SignedArea are turned by `sense`). Displaced by d it gives its pixel d x (dx, dy); its
-// points move with the ends, so their terms lie between those of the ends.
-void Coverage::AddPiece(const Vec2d& a, const Vec2d& b, const Terms& terms_a, const Terms& terms_b,
+// positive SignedArea are turned by `sense`). Displaced by d it gives its pixel d x (dx, dy).
+void Coverage::AddPiece(const Vec2d& a, const Vec2d& b, const Vec2d& seen_a, const Vec2d& seen_b,
                         double sense) {
   const Vec2d step = b - a;
+  const double length = step.norm();
   int x = static_cast<int>(std::floor(a.x()));
   int y = static_cast<int>(std::floor(a.y()));
   const int last_x = static_cast<int>(std::floor(b.x()));
@@ -93,11 +94,12 @@ void Coverage::AddPiece(const Vec2d& a, const Vec2d& b, const Terms& terms_a, co
     const double right = x + 1.0 - (a.x() + middle * step.x());
     cell[0] -= static_cast<float>(dy * right);
     cell[kChannels] -= static_cast<float>(dy * (1.0 - right));
-    const Terms terms = terms_a + middle * (terms_b - terms_a);
-    for (int k = 0; k < OutlineMap::kTerms; ++k) {
-      cell[1 + k] += static_cast<float>(dy * terms[k]);
-      cell[1 + OutlineMap::kTerms + k] -= static_cast<float>(dx * terms[k]);
-    }
+    cell[1] += static_cast<float>(dy);
+    cell[2] -= static_cast<float>(dx);
+    const Vec2d seen = share * length * (seen_a + middle * (seen_b - seen_a));
+    cell[3] += static_cast<float>(share * length);
+    cell[4] += static_cast<float>(seen.x());
+    cell[5] += static_cast<float>(seen.y());
     t = next;
     if (left_x == 0 && left_y == 0) break;
     if (tx <= ty) {
@@ -132,20 +134,22 @@ void Coverage::Blur(const PixelBox& covered, double variance_px2) {
   other_.assign(data_.size(), 0.0f);
   for (int y = wide.y0; y < wide.y1; ++y) {
     for (int x = wide.x0; x < wide.x1; ++x) {
-      float* sum = &other_[Index(x, y)];
+      Channels sum = Channels::Zero();
       for (int from = std::max(x - reach, 0); from <= std::min(x + reach, width_ - 1); ++from) {
-        AddScaled(sum, weights[static_cast<size_t>(std::abs(from - x))], &data_[Index(from, y)]);
+        sum += weights[static_cast<size_t>(std::abs(from - x))] * ChannelsAt(data_, Index(from, y));
       }
+      ChannelsAt(other_, Index(x, y)) = sum;
     }
   }
   for (int y = all.y0; y < all.y1; ++y) {
     for (int x = all.x0; x < all.x1; ++x) {
-      float* sum = &data_[Index(x, y)];
-      std::fill(sum, sum + kChannels, 0.0f);
+      Channels sum = Channels::Zero();
       for (int from = std::max(y - reach, wide.y0); from <= std::min(y + reach, wide.y1 - 1);
            ++from) {
-        AddScaled(sum, weights[static_cast<size_t>(std::abs(from - y))], &other_[Index(x, from)]);
+        sum +=
+            weights[static_cast<size_t>(std::abs(from - y))] * ChannelsAt(other_, Index(x, from));
       }
+      ChannelsAt(data_, Index(x, y)) = sum;
     }
   }
 }

@@ -9,28 +9,31 @@ namespace {
 
 // Outside of these no pattern was named while the weights were fitted.
 bool WithinLimits(const Evidence& e) {
-  const bool polygon = e.straight_edges != 0;
+  const bool round = e.straight_edges == 0;
   // Parts of other shapes, strips, glints and rings imitate these.
   const bool imitated = e.straight_edges <= 4;
   const double least_lead = imitated ? 20.0 : 5.0;
   // Seen from nearly the side any quadrilateral is anything.
-  const double least_foreshortening = polygon && imitated ? 0.30 : 0.17;
-  const bool covered = polygon && imitated && e.ground_step > 0.35;
+  const double least_foreshortening = round ? 0.17 : imitated ? 0.30 : 0.20;
+  // What a cable cuts off a bright square is a triangle, too.
+  const bool cut = !round && imitated && (e.ground_step > 0.35 || e.torn);
   const bool alone = !imitated || e.framed > 0.3;
-  const bool flat = !polygon || e.saddle < 0.12;
-  return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead && e.bend < 60.0 &&
-         e.foreshortening > least_foreshortening && e.area_px >= 40.0 && flat && !covered &&
+  const bool flat = round || e.saddle < 0.12;
+  // A ring of diodes, and the dark in its middle.
+  const bool ring = round && (e.least_contrast > 2.0 || e.free_share < 0.45);
+  return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead && e.bend < 40.0 &&
+         e.foreshortening > least_foreshortening && e.area_px >= 40.0 && flat && !cut && !ring &&
          alone && e.least_contrast > 0.2;
 }
 
 // Common to all: how well it fits, how far the next is, how bent it is, what lies around it, how
-// it stands out.
+// it stands out. 0 where the patterns at hand asked for a sign that makes no sense.
 struct Weights {
   double constant, misfit, lead, bend, ground_step, least_contrast, contrast;
 };
-constexpr Weights kFewEdges{1.521, -0.088, 0.676, -0.964, 0.527, -2.154, 0.071};
-constexpr Weights kManyEdges{-4.351, -1.771, 2.383, 0.217, -0.558, 0.515, 0.044};
-constexpr Weights kRound{0.239, -0.860, -0.433, 0.533, 1.379, -0.582, 0.134};
+constexpr Weights kFewEdges{1.373, 0.0, 0.658, -1.056, 0.0, -1.921, 0.201};
+constexpr Weights kManyEdges{-3.890, -1.525, 1.586, -0.058, -0.569, 1.143, 1.089};
+constexpr Weights kRound{5.136, 0.0, 0.0, 0.0, 0.0, 2.998, -0.400};
 
 double Common(const Evidence& e, const Weights& w) {
   return w.constant + w.misfit * std::log(std::max(e.misfit, 0.7)) +
@@ -44,8 +47,8 @@ double Common(const Evidence& e, const Weights& w) {
 struct SizeWeights {
   double saddle, half_size, area;
 };
-constexpr SizeWeights kFewEdgesSize{-0.468, 0.829, 1.127};
-constexpr SizeWeights kManyEdgesSize{-0.689, -0.032, 1.506};
+constexpr SizeWeights kFewEdgesSize{-0.344, 1.385, 0.903};
+constexpr SizeWeights kManyEdgesSize{-0.305, 2.682, 2.027};
 
 double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
   return Common(e, w) + s.saddle * std::min(e.saddle, 0.1) / 0.01 +
@@ -54,7 +57,7 @@ double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
 
 // Glints are blurred, white, or have a peak; a ring's dark middle has no ground around it.
 double OfDisc(const Evidence& e) {
-  constexpr double kSize = -1.411, kBlur = -3.182, kWhite = -4.607, kFree = 10.452, kPeak = -1.361;
+  constexpr double kSize = -2.595, kBlur = -3.995, kWhite = -7.663, kFree = 3.875, kPeak = -0.589;
   const double narrow_px = e.half_size_px * e.foreshortening;
   return Common(e, kRound) + kSize * std::log(narrow_px / 5.0) +
          kBlur * 10.0 * std::min(e.blur_px / narrow_px, 0.5) + kWhite * e.white_share +

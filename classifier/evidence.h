@@ -25,6 +25,7 @@ struct Evidence {
   // Smallest contrast along the outline, of the middle's: where it is next to nothing the marker
   // may go on unseen.
   double least_contrast = 1.0;
+  bool torn = false;            // of bright patterns: Pattern
   double framed = 1.0;          // of dark patterns: DarkFrame; 1 if the set asks for no border
   double contrast_sigma = 0.0;  // contrast over the noise of a pixel
   double half_size_px = 0.0;    // ViewOfPlane

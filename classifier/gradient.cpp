@@ -96,6 +96,16 @@ void MeasureGradient(const DigitalImage& image, GradientField& field) {
   MeasureSlope(smooth, field.slope);
 }
 
+void MeasureRelief(const GradientField& field, FloatPlane& relief) {
+  constexpr double kSigma_px = 2.0;
+  Resize(relief, field.smooth.width, field.smooth.height);
+  FloatPlane smooth = field.smooth;
+  const cv::Mat from(smooth.height, smooth.width, CV_32FC1, smooth.data.data());
+  cv::Mat to(relief.height, relief.width, CV_32FC1, relief.data.data());
+  cv::GaussianBlur(from, to, cv::Size(0, 0), kSigma_px);
+  cv::subtract(from, to, to);
+}
+
 double SampleBilinear(const FloatPlane& plane, double x, double y) {
   x = std::clamp(x, 0.0, plane.width - 1.0);
   y = std::clamp(y, 0.0, plane.height - 1.0);

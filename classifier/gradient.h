@@ -26,6 +26,11 @@ inline constexpr float kSlopeNoise = 0.2067f;
 // Reuses the memory of `field`: fresh pages for every picture would cost more than the arithmetic.
 void MeasureGradient(const DigitalImage& image, GradientField& field);
 
+// The smoothed picture above what it is around, DN: minus itself smoothed by 2 px more. It is 0
+// where the picture is steepest, however the light falls along an edge (Marr and Hildreth, Proc. R.
+// Soc. B 207, 1980).
+void MeasureRelief(const GradientField& field, FloatPlane& relief);
+
 // Between the pixel centres; the nearest inside for points outside.
 double SampleBilinear(const FloatPlane& plane, double x, double y);
 

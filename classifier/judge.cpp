@@ -121,6 +121,7 @@ JudgedPattern Judge::Decide(const Pattern& pattern, const FloatPlane& height, bo
   const ShapeModel& model = models_[tried_.front().model];
   const Polygon outline = fit.map.Of(model.outline);
   judged.evidence = Weigh(pattern, outline);
+  judged.evidence.torn = pattern.torn && !dark;
   if (dark && dark_square_ > 1.0) judged.evidence.framed = Framed(height);
   judged.probability = NameProbability(judged.evidence);
   const auto in_picture = [&](const Vec2d& p) -> Vec2d {

@@ -7,7 +7,7 @@ namespace retrolux {
 
 namespace {
 
-constexpr int kGeometry = Coverage::kDerivatives;
+constexpr int kGeometry = 2 * OutlineMap::kTerms;
 constexpr int kVariance = kGeometry;  // index of the blur
 constexpr int kLight = kGeometry + 1;
 constexpr int kSurroundings = 3, kMarker = 6;
@@ -57,12 +57,13 @@ Equations Assemble(const Patch& patch, const MarkerFit& fit, const Coverage& cov
       const float* c = coverage.At(x, y);
       const Vec2d p = PlaceInPatch(patch, Vec2d(x, y));
       const double b = SurroundingsAt(fit.light, p);
-      const double m = MarkerLightAt(fit.light, p);
-      const double covered = static_cast<double>(c[0]);
+      const bool outside = c[0] < kPure;
+      const double m = outside ? b : MarkerLightAt(fit.light, p);
+      const auto covered = static_cast<double>(c[0]);
       const double residual = static_cast<double>(patch.dn(x, y)) - b - covered * (m - b);
       if (residual < 0.0 && patch.dn(x, y) >= patch.white_dn) continue;  // as bright as can be
       sums.squares += residual * residual;
-      if (c[0] < kPure) {
+      if (outside) {
         const Vec3d row(1.0, p.x(), p.y());
         outer += row * row.transpose();
         sums.right.segment<kSurroundings>(kLight) += residual * row;
@@ -73,7 +74,14 @@ Equations Assemble(const Patch& patch, const MarkerFit& fit, const Coverage& cov
       } else {
         float* row = rows.row(edges++).data();
         const auto contrast = static_cast<float>(m - b);
-        for (int k = 0; k < kGeometry; ++k) row[k] = contrast * c[1 + k];
+        const Vec2d seen = coverage.PlaceAt(x, y);
+        const auto u = static_cast<float>(seen.x());
+        const auto v = static_cast<float>(seen.y());
+        const float terms[] = {1.0f, u, v, u * u, u * v, v * v};
+        for (int k = 0; k < OutlineMap::kTerms; ++k) {
+          row[k] = contrast * c[1] * terms[k];
+          row[OutlineMap::kTerms + k] = contrast * c[2] * terms[k];
+        }
         row[kVariance] = contrast * coverage.ByVariance(x, y);
         const auto px = static_cast<float>(p.x());
         const auto py = static_cast<float>(p.y());

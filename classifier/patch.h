@@ -10,7 +10,7 @@ struct PatchOptions {
   // How far from the inside of the pattern's outline pixels are compared, px.
   int margin_px = 3;
   // Larger patterns are compared on means of several pixels, so that the patch has about as many.
-  double most_pixels = 2600.0;
+  double most_pixels = 1600.0;
 };
 
 // Of a large pattern k x k pixels are averaged into one: a mean of pixels is a larger pixel.

@@ -87,11 +87,14 @@ LevelPlane HalfWay(const Polygon& outline, const Profile& profile) {
   return level;
 }
 
+// Share of a contour's points on pixels of one band, or of any (kAny).
+constexpr int kAny = -1;
 double SteepShare(const Polygon& contour, const Plane<int>& labels, int label) {
   int steep = 0;
   for (const Vec2d& p : contour) {
-    steep +=
-        labels(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))) == label;
+    const int at =
+        labels(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    steep += label == kAny ? at != 0 : at == label;
   }
   return steep / static_cast<double>(contour.size());
 }
@@ -149,6 +152,19 @@ Polygon Outline(const Polygon& contour) {
   return Resample(contour, static_cast<int>(std::clamp<double>(points, kMinPoints, kMaxPoints)));
 }
 
+// A traced contour as a pattern, if it is high and sharp enough.
+std::optional<Pattern> PatternOf(const GradientField& field, const Traced& traced,
+                                 const LevelPlane& level, const EdgesOptions& options) {
+  Polygon outline = Outline(traced.contour);
+  const Profile profile = MeasureProfile(field, outline);
+  Pattern pattern = Measure(field, traced, profile, std::move(outline));
+  pattern.level = level;
+  const bool high = pattern.contrast >= options.min_contrast_sigma * pattern.noise;
+  const bool sharp = pattern.blur_px <= options.max_blur_px;
+  if (!high || !sharp) return std::nullopt;
+  return pattern;
+}
+
 // The outlines exactly half way of a first outline, in the box around it.
 std::optional<Pattern> Sharpened(const GradientField& field, const EdgeBands& bands,
                                  const EdgeBand& band, const Polygon& contour,
@@ -159,14 +175,7 @@ std::optional<Pattern> Sharpened(const GradientField& field, const EdgeBands& ba
   const LevelPlane half_way = HalfWay(first, first_profile);
   const auto traced = TraceBand(field, bands, band, half_way, options);
   if (!traced) return std::nullopt;
-  Polygon outline = Outline(traced->contour);
-  const Profile profile = MeasureProfile(field, outline);
-  Pattern pattern = Measure(field, *traced, profile, std::move(outline));
-  pattern.level = half_way;
-  const bool high = pattern.contrast >= options.min_contrast_sigma * pattern.noise;
-  const bool sharp = pattern.blur_px <= options.max_blur_px;
-  if (!high || !sharp) return std::nullopt;
-  return pattern;
+  return PatternOf(field, *traced, half_way, options);
 }
 
 bool LargeEnough(const EdgeBand& band, const EdgesOptions& options) {
@@ -185,8 +194,8 @@ std::optional<Pattern> PatternOfBand(const GradientField& field, const EdgeBands
 }
 
 // Half a pixel of what goes on outside shows in the outermost two rows.
-bool OffTheBorder(const PixelBox& box, const GradientField& field) {
-  return box.x0 > 0 && box.y0 > 0 && box.x1 < field.smooth.width && box.y1 < field.smooth.height;
+bool OffTheBorder(const PixelBox& box, const FloatPlane& picture) {
+  return box.x0 > 0 && box.y0 > 0 && box.x1 < picture.width && box.y1 < picture.height;
 }
 
 PixelBox BoxAround(const Polygon& contour) {
@@ -207,8 +216,27 @@ std::vector<Pattern> FindPatterns(const GradientField& field, const EdgeBands& b
   std::vector<Pattern> patterns;
   for (const EdgeBand& band : bands.bands) {
     // A pattern at the border may go on outside.
-    if (!OffTheBorder(band.box, field)) continue;
+    if (!OffTheBorder(band.box, field.smooth)) continue;
     if (auto pattern = PatternOfBand(field, bands, band, options)) {
+      patterns.push_back(std::move(*pattern));
+    }
+  }
+  return patterns;
+}
+
+std::vector<Pattern> FindTornPatterns(const GradientField& field, const EdgeBands& bands,
+                                      const FloatPlane& relief, const EdgesOptions& options) {
+  std::vector<Pattern> patterns;
+  for (const Polygon& contour : TraceSteepContours(relief, bands.labels)) {
+    if (ScreenArea(contour) < options.min_area_px) continue;
+    if (SteepShare(contour, bands.labels, kAny) < kMinSteepShare) continue;
+    if (!OffTheBorder(BoxAround(contour), relief)) continue;
+    const Polygon outline = Outline(contour);
+    const Profile profile = MeasureProfile(field, outline);
+    if (!(profile.median_contrast > 0.0)) continue;
+    const LevelPlane level = HalfWay(outline, profile);
+    if (auto pattern = PatternOf(field, {contour, 0.0}, level, options)) {
+      pattern->torn = true;
       patterns.push_back(std::move(*pattern));
     }
   }
@@ -225,7 +253,7 @@ std::vector<Pattern> FindEveryPattern(const GradientField& field, const EdgeBand
       if (SteepShare(contour, bands.labels, band.label) < kMinSteepShare) continue;
       EdgeBand own = band;
       own.box = BoxAround(contour);
-      if (!OffTheBorder(own.box, field)) continue;
+      if (!OffTheBorder(own.box, field.smooth)) continue;
       if (auto pattern = Sharpened(field, bands, own, contour, options)) {
         patterns.push_back(std::move(*pattern));
       }

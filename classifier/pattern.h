@@ -20,6 +20,7 @@ struct Pattern {
   double blur_px = 0.0;       // width of its edges beyond that of a picture in focus
   double hole_area_px = 0.0;  // of dark holes inside
   LevelPlane level;           // half way between the pattern and its surroundings, DN
+  bool torn = false;          // the outline is not that of the level, which may be open there
 };
 
 // The patterns that lie wholly in the picture and are large, high and sharp enough for the options:
@@ -31,5 +32,11 @@ std::vector<Pattern> FindPatterns(const GradientField& field, const EdgeBands& b
 // into one another, into the rim of the mask or an edge that leaves the picture are found, too.
 std::vector<Pattern> FindEveryPattern(const GradientField& field, const EdgeBands& bands,
                                       const EdgesOptions& options);
+
+// What FindEveryPattern misses because the light falls by a factor over it, so that its outline is
+// open half way up: closed outlines of `relief` = 0 (MeasureRelief). Where the light falls less
+// they are those of FindEveryPattern again.
+std::vector<Pattern> FindTornPatterns(const GradientField& field, const EdgeBands& bands,
+                                      const FloatPlane& relief, const EdgesOptions& options);
 
 }  // namespace retrolux

@@ -13,6 +13,9 @@ constexpr int kRefinements = 3;
 // Points of the outline that are compared; more change nothing.
 constexpr size_t kMostPoints = 72;
 
+// Turns whose maps are refined, of all markers: the right one is among the best few.
+constexpr size_t kMostRefined = 10;
+
 struct Turn {
   size_t model;
   int steps;          // of 2 pi / kDirections
@@ -124,15 +127,22 @@ std::vector<Proposal> ProposeMarkers(const Polygon& outline, const std::vector<S
   const AreaMoments moments = MomentsOf(outline);
   const auto radii = SpreadRadii(outline, moments);
   const Polygon points = Thinned(outline);
-  std::vector<Proposal> proposals;
+  std::vector<Turn> best;
   for (size_t m = 0; m < models.size(); ++m) {
-    for (const Turn& turn : BestTurns(radii, models, m, turns)) {
-      const Eigen::Matrix2d rotation =
-          Eigen::Rotation2Dd(2.0 * kPi * turn.steps / kDirections).toRotationMatrix();
-      const Eigen::Matrix2d linear = moments.spread * rotation * models[m].spread.inverse();
-      const Vec2d origin = moments.mean - linear * models[m].mean;
-      proposals.push_back(Refined(points, models, m, OutlineMap::Affine(origin, linear)));
-    }
+    const std::vector<Turn> of_model = BestTurns(radii, models, m, turns);
+    best.insert(best.end(), of_model.begin(), of_model.end());
+  }
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Turn& a, const Turn& b) { return a.difference < b.difference; });
+  best.resize(std::min(best.size(), kMostRefined));
+  std::vector<Proposal> proposals;
+  for (const Turn& turn : best) {
+    const ShapeModel& model = models[turn.model];
+    const Eigen::Matrix2d rotation =
+        Eigen::Rotation2Dd(2.0 * kPi * turn.steps / kDirections).toRotationMatrix();
+    const Eigen::Matrix2d linear = moments.spread * rotation * model.spread.inverse();
+    const Vec2d origin = moments.mean - linear * model.mean;
+    proposals.push_back(Refined(points, models, turn.model, OutlineMap::Affine(origin, linear)));
   }
   std::stable_sort(proposals.begin(), proposals.end(),
                    [](const Proposal& a, const Proposal& b) { return a.rms_px < b.rms_px; });

@@ -15,8 +15,9 @@ namespace {
 constexpr size_t kWitnesses = 3;
 
 // The same picture seen as its negative: dark patterns become bright.
-void MakeNegative(GradientField& field, EdgeBands& bands) {
+void MakeNegative(GradientField& field, FloatPlane& relief, EdgeBands& bands) {
   for (float& v : field.smooth.data) v = -v;
+  for (float& v : relief.data) v = -v;
   for (EdgeBand& band : bands.bands) {
     band.level.value = -band.level.value;
     band.level.slope = -band.level.slope;
@@ -30,6 +31,29 @@ EdgesOptions PatternLimits(const RobustOptions& options) {
   limits.min_contrast_sigma = options.min_contrast_sigma;
   limits.max_blur_px = options.max_edge_blur_px;
   return limits;
+}
+
+// Whether a marker has been named where a pattern is, or the pattern is one judged before.
+bool IsSettled(const Pattern& pattern, bool dark, const std::vector<JudgedPattern>& judged) {
+  constexpr double kSame_px = 1.0, kSameArea = 1.12;
+  const Vec2d middle = Centroid(pattern.outline);
+  return std::any_of(judged.begin(), judged.end(), [&](const JudgedPattern& j) {
+    if (j.detection.marker) return Contains(j.fitted_px, middle);
+    const double ratio = j.detection.area_px / pattern.area_px;
+    return j.dark == dark && ratio < kSameArea && ratio > 1.0 / kSameArea &&
+           (Centroid(j.outline_px) - middle).norm() < kSame_px;
+  });
+}
+
+// A named pattern takes the place of what has been found of it before without a name.
+void Add(JudgedPattern found, std::vector<JudgedPattern>& judged) {
+  if (found.detection.marker) {
+    std::erase_if(judged, [&](const JudgedPattern& j) {
+      return !j.detection.marker && j.dark == found.dark &&
+             Contains(found.fitted_px, Centroid(j.outline_px));
+    });
+  }
+  judged.push_back(std::move(found));
 }
 
 double Darkest(const FloatPlane& smooth) {
@@ -118,24 +142,29 @@ std::vector<JudgedPattern> JudgePatterns(const DigitalImage& image, const Marker
   options.Check();
   if (image.dn.width < 3 || image.dn.height < 3) return {};  // no place for a whole pattern
   thread_local GradientField field;
+  thread_local FloatPlane relief;
   thread_local EdgeBands bands;
   const EdgesOptions limits = PatternLimits(options);
   MeasureGradient(image, field);
+  MeasureRelief(field, relief);
   FindEdgeBands(field, options.min_slope_sigma, bands);
   const std::vector<ShapeModel> models = ModelsOf(markers);
   Judge judge(image, models, markers.dark_square_mm / markers.size_mm, options,
               options.black_dn.value_or(Darkest(field.smooth)));
   std::vector<JudgedPattern> judged;
-  const auto decide = [&](bool dark) {
-    for (const Pattern& pattern : FindEveryPattern(field, bands, limits)) {
-      judged.push_back(judge.Decide(pattern, field.smooth, dark));
+  const auto decide = [&](const std::vector<Pattern>& patterns, bool dark) {
+    for (const Pattern& pattern : patterns) {
+      if (IsSettled(pattern, dark, judged)) continue;
+      Add(judge.Decide(pattern, field.smooth, dark), judged);
     }
   };
-  decide(false);
+  decide(FindEveryPattern(field, bands, limits), false);
+  decide(FindTornPatterns(field, bands, relief, limits), false);
   if (options.dark) {
-    MakeNegative(field, bands);
-    decide(true);
-    MakeNegative(field, bands);
+    MakeNegative(field, relief, bands);
+    // Over a dark marker's bright square the light often falls; over a bright marker seldom.
+    decide(FindTornPatterns(field, bands, relief, limits), true);
+    MakeNegative(field, relief, bands);
   }
   DropOddSizes(options.max_size_ratio, models, judged);
   if (debug != nullptr) WriteDebugPictures(*debug, field, bands, judged);

@@ -1,7 +1,8 @@
 // Identification method `robust`: every closed bright or dark outline is compared with the whole
 // marker set, contour and interior, by fitting each marker to the pixels. docs/identification.md
 // explains it and gives the figures. Where to read on, in the order of the work:
-//   pattern.h      closed outlines at half height, as for `edges`, with wider limits
+//   pattern.h      closed outlines at half height, as for `edges`, with wider limits, and of the
+//                  steepest places, for what the light falls over
 //   outline_map.h  how a marker lies in the picture; the set prepared
 //   proposals.h    which markers an outline may show, in which turn
 //   patch.h        the pixels that are compared
@@ -27,7 +28,7 @@ namespace retrolux {
 struct RobustOptions {
   // What is looked at at all, as EdgesOptions. Smaller and dimmer patterns than `edges` takes, and
   // more blurred ones: the fit decides.
-  double min_area_px = 30.0;
+  double min_area_px = 40.0;
   double min_slope_sigma = 5.0;
   double min_contrast_sigma = 4.0;
   double max_edge_blur_px = 4.0;
@@ -43,7 +44,7 @@ struct RobustOptions {
   PatchOptions patch;
   FitOptions fit;
   // A name is given if its probability is at least this. Larger trades names for safety.
-  double min_probability = 0.95;
+  double min_probability = 0.97;
   // A name is taken back if at least three others say that markers have another size in this
   // picture, by more than this factor: parts of markers look like whole ones of another size.
   // Distances of one picture differ less. Large switches it off.
@@ -60,8 +61,8 @@ struct RobustOptions {
 // A pattern with all that was weighed.
 struct JudgedPattern {
   Detection detection;
-  bool dark = false;         // darker than its surroundings
-  Polygon outline_px;        // at half height
+  bool dark = false;  // darker than its surroundings
+  Polygon outline_px;
   Polygon fitted_px;         // of the marker that fits best; empty: no fit was worth trying
   Evidence evidence;         // of that marker
   double probability = 0.0;  // that it is the one
