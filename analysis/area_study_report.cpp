@@ -359,8 +359,7 @@ class AreaReport {
   }
 
   void HowMade(const std::string& command_line) {
-    report_.Heading("How this was made");
-    report_.Paragraph(fmt::format("`{}`", command_line));
+    report_.HowMade(command_line);
     report_.Paragraph(fmt::format(
         "Seed {}: it turns the meshes and spreads the samples. One sample of the sphere stands for "
         "{:g} mm² at most, in the curves over φb and ψ for 16 times that. All areas are in "

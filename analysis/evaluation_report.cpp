@@ -269,8 +269,7 @@ class EvaluationPage {
   }
 
   void HowMade(const std::string& command_line) {
-    report_.Heading("How this was made");
-    report_.Paragraph(fmt::format("`{}`", command_line));
+    report_.HowMade(command_line);
     report_.Paragraph(
         "Every row of these tables, and more, is in evaluation.json; misses.csv has a row for each "
         "marker and method, false_positives.csv one for each name where no marker is.");

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/layout_study.h"
 #include "analysis/plotly_figure.h"
+#include "analysis/raised_picture.h"
 #include "analysis/report.h"
 #include "core/atomic_file.h"
 #include "core/image_file.h"
@@ -13,16 +13,6 @@ namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
-
-// Dark levels raised, so that the mask is seen.
-std::string Shown(const fs::path& file) {
-  DigitalImage image = ReadGrey(file);
-  const double full_scale = (1 << image.bits) - 1;
-  for (uint16_t& dn : image.dn.data)
-    dn = static_cast<uint16_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
-  image.bits = 8;
-  return EncodeGreyPng(image);
-}
 
 class LayoutReport {
  public:
@@ -39,8 +29,7 @@ class LayoutReport {
     Errors();
     Places();
     Pictures();
-    report_.Heading("How it was made");
-    report_.Paragraph(fmt::format("`{}`", command));
+    report_.HowMade(command);
     for (const char* file : {"layout.json", "sightings.csv", "pairs.csv"})
       report_.Attachment(file, ReadTextFile(folder_ / file));
     return std::move(report_);
@@ -130,7 +119,8 @@ class LayoutReport {
       for (const std::string& camera : study_.cameras) {
         const fs::path file = folder_ / "pictures" / fmt::format("{}_{}.png", pose.name, camera);
         if (fs::is_regular_file(file))
-          pictures.push_back({fmt::format("{}, {}", pose.name, camera), Shown(file)});
+          pictures.push_back({fmt::format("{}, {}", pose.name, camera),
+                              EncodeGreyPng(DarkLevelsRaised(ReadGrey(file)))});
       }
     }
     if (pictures.empty()) return;

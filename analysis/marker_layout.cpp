@@ -5,18 +5,14 @@
 #include <numeric>
 
 #include "analysis/stereo_study.h"
-#include "analysis/surface_samples.h"
 #include "classifier/registration.h"
 #include "core/rng.h"
-#include "renderer/marker_truth.h"
 
 namespace retrolux {
 
 namespace {
 
 constexpr const char* kMask = "mask";
-constexpr double kAround_mm = 10.0;
-constexpr int kAroundPoints = 8;
 constexpr size_t kLeast = 3;  // markers that fix a pose
 // What a pose costs, mm, in which no pair sees enough: far above any TRE.
 constexpr double kNoSpare = 1e3, kNoPose = 1e6;
@@ -25,22 +21,6 @@ constexpr double kFewGood = 3e2;
 
 Vec3d MaskInWorld(const Scene& posed) {
   return posed.Object(kMask).world_from_object.translation;
-}
-
-bool Sees(const RayScene& rays, const CameraModel& camera, const MarkerPlace& place,
-          const RigidTransform& world_from_mask, double min_cosine) {
-  const Vec3d centre = world_from_mask * place.at;
-  const Vec3d normal = world_from_mask.rotation * place.normal;
-  if (normal.dot((camera.Centre() - centre).normalized()) < min_cosine) return false;
-  const Vec3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  for (int i = 0; i <= kAroundPoints; ++i) {
-    const double angle = 2.0 * kPi * i / kAroundPoints;
-    const double radius = i == kAroundPoints ? 0.0 : kAround_mm;
-    const Vec3d x = centre + radius * (std::cos(angle) * u + std::sin(angle) * v);
-    // The tangent plane's points lie above a convex surface, so that they do not hide themselves.
-    if (!IsSeen(rays, camera, x, normal)) return false;
-  }
-  return true;
 }
 
 // Two cameras that may work together.
@@ -206,46 +186,6 @@ bool Exchange(const Search& search, const std::vector<size_t>& useful, std::vect
 
 }  // namespace
 
-std::vector<MarkerPlace> CandidatePlaces(const Scene& scene, const LayoutOptions& options) {
-  const SurfaceSamples samples =
-      SampleSurface(scene.Object(kMask).mesh, options.candidate_mm2, options.seed);
-  // Meshes of small triangles have a point in each: as many as asked for are drawn by area.
-  const auto wanted = static_cast<size_t>(samples.area_mm2 / options.candidate_mm2);
-  std::vector<MarkerPlace> places;
-  double area = 0.0;
-  for (size_t i = 0; i < samples.Size(); ++i) {
-    area += static_cast<double>(samples.areas_mm2[i]);
-    if (area < options.candidate_mm2 * (static_cast<double>(places.size()) + 0.5)) continue;
-    if (places.size() == wanted) break;
-    places.push_back({samples.positions[i].cast<double>(), samples.normals[i].cast<double>()});
-  }
-  return places;
-}
-
-SightTable SeePlaces(const Scene& scene, const std::vector<Pose>& poses,
-                     const std::vector<MarkerPlace>& places, double max_incidence_deg,
-                     Progress& progress) {
-  SightTable table{poses, {}};
-  const double min_cosine = std::cos(RadFromDeg(max_incidence_deg));
-  progress.Begin("sight", static_cast<int64_t>(poses.size()), "poses");
-  for (const Pose& pose : poses) {
-    const Scene posed = scene.AtPose(pose);
-    const RayScene rays(posed);
-    const RigidTransform& world_from_mask = posed.Object(kMask).world_from_object;
-    auto& cameras = table.seen.emplace_back();
-    for (const CameraSpec& camera : posed.cameras) {
-      auto& seen = cameras.emplace_back(places.size(), 0);
-      ParallelFor(static_cast<int64_t>(places.size()), [&](int64_t i) {
-        const auto place = static_cast<size_t>(i);
-        seen[place] = Sees(rays, camera.model, places[place], world_from_mask, min_cosine);
-      });
-    }
-    progress.Advance(1);
-  }
-  progress.End();
-  return table;
-}
-
 double SeparationDeg(const CameraModel& a, const CameraModel& b, const Vec3d& from) {
   const Vec3d u = (a.Centre() - from).normalized(), v = (b.Centre() - from).normalized();
   return DegFromRad(std::acos(std::clamp(u.dot(v), -1.0, 1.0)));
@@ -297,7 +237,7 @@ MarkerLayout FindLayout(const Scene& scene, const SightTable& table,
     throw InputError(fmt::format(
         "{}: no {} places let a pair of cameras see three markers below {} degrees in every pose; "
         "expected cameras {} degrees apart or more that share a part of the mask",
-        scene.name, options.relative_sigma.size(), options.max_incidence_deg,
+        scene.name, options.relative_sigma.size(), options.sight.max_incidence_deg,
         options.min_separation_deg));
   }
   return search.Measured(*best);

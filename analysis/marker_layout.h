@@ -2,8 +2,7 @@
 // some pair of cameras must name at least three of them at once, well enough spread for a pose.
 #pragma once
 
-#include "core/parallel.h"
-#include "scenes/scene.h"
+#include "analysis/marker_sight.h"
 
 namespace retrolux {
 
@@ -11,36 +10,17 @@ struct LayoutOptions {
   // How uncertain the middle of each marker is, of that of a good one (classifier/marker_point.h):
   // as many as there are markers.
   std::vector<double> relative_sigma = std::vector<double>(6, 1.0);
-  // A marker counts as named by a camera that it faces to within this. Larger finds layouts whose
-  // markers fade; the study renders what comes of it.
-  double max_incidence_deg = 45.0;
+  // Where a camera counts as naming a marker. Larger ones find layouts whose markers fade; the
+  // study renders what comes of it.
+  SightLimits sight;
   double clearance_mm = 25.0;        // between the centres of two markers
   double min_separation_deg = 15.0;  // of a pair, seen from the mask: closer ones give hot spots
-  double candidate_mm2 = 300.0;      // of the mask's surface for each place that is tried
+  double candidate_mm2 = 100.0;      // of the mask's surface for each place that is tried
   double point_sigma_px = 0.05;      // of a marker in a picture, in each of u and v
   int spare = 1;                     // markers beyond three that a pair should see, to lose
-  int starts = 6;                    // random layouts that the search sets out from
+  int starts = 24;                   // random layouts that the search sets out from
   uint64_t seed = 1;
 };
-
-// A place on the mask, in the mask object's frame.
-struct MarkerPlace {
-  Vec3d at = Vec3d::Zero(), normal = Vec3d::UnitX();
-};
-
-// Places all over the mask, stratified by area.
-std::vector<MarkerPlace> CandidatePlaces(const Scene& scene, const LayoutOptions& options);
-
-// Which cameras see which places in which pose: the place and eight points 10 mm around it in the
-// frame and not hidden, the normal within max_incidence_deg.
-struct SightTable {
-  std::vector<Pose> poses;
-  // [pose][camera][place]
-  std::vector<std::vector<std::vector<uint8_t>>> seen;
-};
-SightTable SeePlaces(const Scene& scene, const std::vector<Pose>& poses,
-                     const std::vector<MarkerPlace>& places, double max_incidence_deg,
-                     Progress& progress);
 
 // A marker that a pair of cameras sees: its place in the mask's frame, its LayoutOptions::
 // relative_sigma.

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "analysis/marker_coverage.h"
-#include "analysis/marker_study_gain.h"
+#include "analysis/marker_study_sections.h"
 #include "analysis/plotly_figure.h"
-#include "analysis/report.h"
+#include "analysis/raised_picture.h"
 #include "core/atomic_file.h"
 #include "core/image_file.h"
 
@@ -13,24 +13,6 @@ namespace retrolux {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kRows = marker_grid::kRows;
-constexpr int kColumns = marker_grid::kColumns;
-
-// 33015.4 -> "33,015"
-std::string Grouped(double value) {
-  const std::string digits = fmt::format("{:.0f}", value);
-  std::string grouped;
-  for (size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) grouped += ',';
-    grouped += digits[i];
-  }
-  return grouped;
-}
-
-std::string AreaNote(const CellSet& set) {
-  return fmt::format("{:.1f} %, {} mm²", set.percent, Grouped(set.area_mm2));
-}
 
 class StudyReport {
  public:
@@ -46,11 +28,9 @@ class StudyReport {
 
   Report Compose(const std::string& command) {
     Summary();
-    Gain();
+    AddGain(study_, coverage_, report_);
     if (study_.poses.size() <= 3) {
-      SetMaps();
-      CountMaps();
-      CameraMaps();
+      AddMaps(study_, coverage_, report_);
     } else {
       ScanCurve();
     }
@@ -94,135 +74,6 @@ class StudyReport {
                     "marker was given another's number "
                     "in **{}** of them.",
                     study_.results.size(), study_.composed, wrong));
-  }
-
-  void Gain() {
-    const std::optional<MethodGain> gain = GainOverEdges(study_, coverage_);
-    if (!gain) return;
-    report_.Heading(fmt::format("What {} gains over edges", study_.options.method));
-    report_.Paragraph(fmt::format(
-        "Both methods saw the same pictures. {} named the marker in **{}** of them, edges in "
-        "**{}**; only edges in {}.",
-        study_.options.method, gain->both + gain->only_method, gain->both + gain->only_edges,
-        gain->only_edges));
-    std::vector<std::vector<std::string>> rows;
-    for (const SetGain& g : gain->sets) {
-      if (study_.poses.size() > 3 && !g.set.pose.empty()) continue;
-      rows.push_back({std::to_string(g.set.marker), g.set.pose, g.set.name,
-                      fmt::format("{:.1f}", g.edges_pct), fmt::format("{:.1f}", g.set.percent),
-                      fmt::format("{:+.1f}", g.set.percent - g.edges_pct), std::to_string(g.won),
-                      std::to_string(g.lost)});
-    }
-    report_.Table("Usable area of the face half, %, and cells of one half won and lost",
-                  {"marker", "pose", "set", "edges / %", study_.options.method + " / %", "gain / %",
-                   "cells won", "cells lost"},
-                  rows);
-  }
-
-  OvalMap MapOf(const CellSet& set, const std::string& label) const {
-    return {label, AreaNote(set), set.cells, set.cells};
-  }
-
-  void SetMaps() {
-    report_.Heading("Usable positions (thesis figures 3.10 to 3.12)");
-    report_.Paragraph(
-        "A position is usable if at least two cameras identify the marker there. Black: usable. "
-        "The half "
-        "y < 0 is the mirror image, left and right cameras swapped.");
-    for (const char* name : {"satisfies", "front", "back", "both"}) {
-      std::vector<OvalMap> maps;
-      for (const int marker : study_.options.markers) {
-        for (const Pose& pose : study_.poses) {
-          maps.push_back(MapOf(*coverage_.Set(name, marker, pose.name),
-                               fmt::format("marker {}, {}", marker, pose.name)));
-        }
-      }
-      report_.OvalMaps(Caption(name), HitMissCategories(), maps);
-    }
-    std::vector<OvalMap> maps;
-    for (const int marker : study_.options.markers) {
-      for (const char* name : {"all", "expanded"}) {
-        if (const CellSet* set = coverage_.Set(name, marker, ""))
-          maps.push_back(MapOf(*set, fmt::format("marker {}, {}", marker, name)));
-      }
-    }
-    report_.OvalMaps(
-        "All: both pairs in every pose (figure 3.11). Expanded: front cameras in reference and "
-        "start, back "
-        "cameras in reference and end (figure 3.12).",
-        HitMissCategories(), maps);
-  }
-
-  static std::string Caption(const std::string& name) {
-    if (name == "satisfies")
-      return "Identified by at least two of the six cameras (figure 3.10, left and right together)";
-    if (name == "front") return "By at least two front cameras (figure 3.10, left)";
-    if (name == "back") return "By at least two back cameras (figure 3.10, right)";
-    return "By two front and by two back cameras";
-  }
-
-  template <typename Value>
-  OvalMap HalfMaps(const std::string& label, Value value, Value mirrored_value) const {
-    OvalMap map{label, "", {}, {}};
-    for (int row = 0; row < kRows; ++row) {
-      for (int col = 0; col < kColumns; ++col) {
-        map.left.push_back(value(row, col));
-        map.right.push_back(mirrored_value(row, col));
-      }
-    }
-    return map;
-  }
-
-  void CountMaps() {
-    report_.Heading("How many cameras");
-    std::vector<OvalMap> maps;
-    for (const int marker : study_.options.markers) {
-      for (int p = 0; p < static_cast<int>(study_.poses.size()); ++p) {
-        const auto count = [&, marker, p](int r, int c) {
-          return coverage_.CamerasHit(marker, p, r, c);
-        };
-        maps.push_back(HalfMaps(
-            fmt::format("marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name), count,
-            count));
-      }
-    }
-    report_.OvalMaps("Number of cameras that identify the marker",
-                     CountCategories(static_cast<int>(study_.cameras.size())), maps);
-  }
-
-  int MirroredCamera(int camera) const {
-    std::string name = study_.cameras[static_cast<size_t>(camera)];
-    const auto swap_end = [&](const std::string& from, const std::string& to) {
-      if (!name.ends_with(from)) return false;
-      name.replace(name.size() - from.size(), from.size(), to);
-      return true;
-    };
-    if (!swap_end("-left", "-right")) swap_end("-right", "-left");
-    return static_cast<int>(std::find(study_.cameras.begin(), study_.cameras.end(), name) -
-                            study_.cameras.begin());
-  }
-
-  void CameraMaps() {
-    report_.Heading("Camera by camera: hit, or why not");
-    std::vector<std::string> names;
-    for (int i = 0; i < kOutcomes; ++i) names.emplace_back(OutcomeName(static_cast<Outcome>(i)));
-    for (const int marker : study_.options.markers) {
-      for (int p = 0; p < static_cast<int>(study_.poses.size()); ++p) {
-        std::vector<OvalMap> maps;
-        for (int c = 0; c < static_cast<int>(study_.cameras.size()); ++c) {
-          const auto at = [&, marker, p](int camera) {
-            return [&, marker, p, camera](int r, int col) {
-              return static_cast<int>(coverage_.OutcomeAt(marker, p, camera, r, col));
-            };
-          };
-          maps.push_back(
-              HalfMaps(study_.cameras[static_cast<size_t>(c)], at(c), at(MirroredCamera(c))));
-        }
-        report_.OvalMaps(
-            fmt::format("Marker {}, {}", marker, study_.poses[static_cast<size_t>(p)].name),
-            NamedCategories(names), maps);
-      }
-    }
   }
 
   void ScanCurve() {
@@ -354,7 +205,7 @@ class StudyReport {
       pictures.push_back({fmt::format("{}, {}: marker {}, {:.0f}°, {}",
                                       study_.cameras[static_cast<size_t>(r.camera)], kept.kind,
                                       r.marker, r.incidence_deg, OutcomeName(r.outcome)),
-                          PictureBytes(kept.file)});
+                          EncodeGreyPng(DarkLevelsRaised(ReadGrey(folder_ / kept.file)))});
     }
     if (pictures.empty()) return;
     report_.Heading("What the cameras record");
@@ -363,16 +214,6 @@ class StudyReport {
                                     "mask",
                                     study_.poses.front().name),
                         pictures, 5);
-  }
-
-  std::string PictureBytes(const std::string& file) const {
-    DigitalImage image = ReadGrey(folder_ / file);
-    const double full_scale = (1 << image.bits) - 1;
-    for (uint16_t& dn : image.dn.data) {
-      dn = static_cast<uint16_t>(std::lround(255.0 * std::pow(dn / full_scale, 1.0 / 2.2)));
-    }
-    image.bits = 8;
-    return EncodeGreyPng(image);
   }
 
   void Symmetry() {
@@ -388,8 +229,7 @@ class StudyReport {
   }
 
   void HowMade(const std::string& command) {
-    report_.Heading("How it was made");
-    report_.Paragraph(fmt::format("`{}`", command));
+    report_.HowMade(command);
     const MarkerStudy::Times& t = study_.times;
     report_.Paragraph(fmt::format(
         "{} samples per pixel, seed {}, noise seed {}; {:.0f} pixels traced again for a picture on "
@@ -412,6 +252,16 @@ class StudyReport {
 };
 
 }  // namespace
+
+std::string Grouped(double value) {
+  const std::string digits = fmt::format("{:.0f}", value);
+  std::string grouped;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) grouped += ',';
+    grouped += digits[i];
+  }
+  return grouped;
+}
 
 void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage,
                       const std::filesystem::path& folder, const std::string& command) {

@@ -32,8 +32,7 @@ class MotionReport {
     Alarm();
     Hidden();
     Pictures(folder);
-    report_.Heading("How this was made");
-    report_.Paragraph(fmt::format("`{}`", command_line));
+    report_.HowMade(command_line);
     report_.Paragraph(fmt::format(
         "Seed {}. Every frame is rendered and exposed at one instant, with its own noise, and "
         "identified; a tracker for each camera gives the names, and the mask's pose follows from "

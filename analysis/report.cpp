@@ -262,6 +262,11 @@ void Report::Attachment(const std::string& file_name, const std::string& text) {
   Add("attachment", {{"file_name", file_name}, {"text", text}});
 }
 
+void Report::HowMade(const std::string& command_line) {
+  Heading("How this was made");
+  Paragraph(fmt::format("`{}`", command_line));
+}
+
 std::string Report::Html() const {
   return FillTemplate(PageFile("page.html"),
                       {{"title", EscapeHtml(content_["title"].get<std::string>())},

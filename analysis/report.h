@@ -84,6 +84,8 @@ class Report {
                 const std::vector<OvalMap>& maps, const OvalGrid& grid = {});
   // A file that the page carries and offers for download.
   void Attachment(const std::string& file_name, const std::string& text);
+  // Begins the section "How this was made" with the command; what else there is to say goes after.
+  void HowMade(const std::string& command_line);
 
   // The same content gives the same bytes. InputError if the plot library is not installed.
   std::string Html() const;

@@ -4,6 +4,7 @@
 
 #include "analysis/mask_picture.h"
 #include "analysis/plotly_figure.h"
+#include "analysis/raised_picture.h"
 #include "analysis/report.h"
 #include "analysis/stereo_files.h"
 #include "core/image_file.h"
@@ -18,14 +19,11 @@ using Colour = std::array<uint8_t, 3>;
 
 constexpr Colour kByShape = {0, 158, 115}, kByPosition = {86, 180, 233}, kLeftOut = {213, 94, 0};
 
-// Dark levels raised, so that people see the mask.
 RgbPicture Grey(const DigitalImage& image) {
   RgbPicture picture(image.dn.width, image.dn.height, {0, 0, 0});
-  const double white = std::pow(2.0, image.bits) - 1.0;
   for (int y = 0; y < image.dn.height; ++y) {
     for (int x = 0; x < image.dn.width; ++x) {
-      const double level = std::pow(image.dn(x, y) / white, 1.0 / 2.2);
-      const auto grey = static_cast<uint8_t>(std::lround(255.0 * level));
+      const auto grey = static_cast<uint8_t>(image.dn(x, y));
       picture.Set(x, y, {grey, grey, grey});
     }
   }
@@ -109,8 +107,7 @@ class StereoReport {
     Places();
     Pose();
     Pictures(pictures);
-    report_.Heading("How this was made");
-    report_.Paragraph(fmt::format("`{}`", command_line));
+    report_.HowMade(command_line);
     report_.Paragraph(fmt::format(
         "Triangulated is the {}. Standard deviations are those of {:g} px in each picture (five "
         "times as much for the fitted middle of shapes with less than five corners); views that "
@@ -211,7 +208,7 @@ class StereoReport {
       const CameraView& view = folder_.views[v];
       const auto file = folder / (view.camera.name + ".png");
       if (!std::filesystem::is_regular_file(file)) continue;
-      RgbPicture picture = Grey(ReadGrey(file));
+      RgbPicture picture = Grey(DarkLevelsRaised(ReadGrey(file)));
       for (const StereoMarker& marker : folder_.result.markers) {
         for (const StereoSighting& seen : marker.sightings) {
           if (seen.view != v) continue;

@@ -117,8 +117,7 @@ void WriteValidation(const Validation& validation, const std::filesystem::path& 
     report.Table(fmt::format("Independent of what is tested: {}", result.group->independent_of),
                  {"", "check", "measured", "expected", "±", "unit", "source"}, rows);
   }
-  report.Heading("How this was made");
-  report.Paragraph(fmt::format("`{}`", command_line));
+  report.HowMade(command_line);
   report.Write(folder / "report.html");
 }
 

@@ -316,8 +316,7 @@ class VaultReport {
   }
 
   void HowMade(const std::string& command_line) {
-    report_.Heading("How it was made");
-    report_.Paragraph(fmt::format("`{}`", command_line));
+    report_.HowMade(command_line);
     const VaultStudy::Rates& rates = study_.rates;
     const Mask& mask = Search().TheMask();
     report_.Paragraph(fmt::format(

@@ -177,8 +177,7 @@ void WriteVaultSummary(const std::vector<VaultStudy>& studies, const std::filesy
   AddTable(rooms, report);
   AddCurves(rooms, report);
   AddSpread(studies, report);
-  report.Heading("How it was made");
-  report.Paragraph(fmt::format("`{}`", command_line));
+  report.HowMade(command_line);
   report.Paragraph("Each simulation has a report of its own in the folder of its name.");
   report.Write(folder / "report.html");
 }

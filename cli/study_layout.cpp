@@ -96,9 +96,13 @@ void SetUpStudyLayout(CLI::App& study, const GlobalOptions& global, Run& run) {
       ->capture_default_str();
   sub->add_option("--material", command->study.material, "what the markers are made of")
       ->capture_default_str();
-  sub->add_option("--max-incidence", command->study.layout.max_incidence_deg,
-                  "deg; up to which the search counts on a marker")
+  sub->add_option("--max-incidence", command->study.layout.sight.max_incidence_deg,
+                  "deg; the search counts on a marker that faces a camera to within this all over")
       ->check(CLI::Range(5.0, 85.0))
+      ->capture_default_str();
+  sub->add_option("--max-fall", command->study.layout.sight.max_fall,
+                  "and on which the ring's light falls by at most this factor")
+      ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   sub->add_option("--min-separation", command->study.layout.min_separation_deg,
                   "deg; pairs of cameras that stand closer do not count")

@@ -706,6 +706,9 @@ same "study layout: the same on 2 threads" layout1 layout2 layout.json sightings
 holds "study layout: a pair names three" layout1/layout.json \
   'json.margin >= 0 && json.misnamed === 0 && json.markers.length === 6 && json.poses[0].position_error_mm < 1'
 [ -s layout1/report.html ] && good "study layout: report" || bad "study layout: report" "$(ls layout1)"
+succeed "study layout on the face" study layout --mask face --poses start --spp 1 --out layout-face
+holds "study layout on the face: what the search promised" layout-face/layout.json \
+  'json.margin + 3 >= json.promised.least_common && json.promised.least_common >= 4'
 refuse "study layout: no mask" "no object 'mask' that moves with the pose" bad study layout --scene sphere --out bad
 
 # --------------------------------------------------------------------------------------------------------------- help

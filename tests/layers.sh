@@ -28,7 +28,8 @@ forbid classifier 'materials/|scenes/|renderer/|analysis/|cli/|tests/'
 forbid analysis   'cli/|tests/'
 forbid cli        'tests/'
 
-only 'embree3/'     renderer/ray_scene.cpp renderer/bare_embree.cpp
+only 'embree3/'     renderer/ray_scene_impl.h renderer/bare_embree.cpp
+only 'renderer/ray_scene_impl' renderer/ray_scene.cpp renderer/ray_geometry.cpp renderer/ray_packets.cpp
 only 'OpenImageIO/' core/image_file.cpp
 only 'tiny_gltf'    scenes/gltf_load.cpp scenes/gltf_mesh.cpp scenes/gltf_model.cpp scenes/gltf_write.cpp
 only 'tbb/'         core/parallel.cpp
