@@ -11,6 +11,7 @@ void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run) {
   SetUpStudyAreas(*study, global, run);
   SetUpStudyStereo(*study, global, run);
   SetUpStudyMotion(*study, global, run);
+  SetUpStudyHotspot(*study, global, run);
 }
 
 }  // namespace retrolux::cli

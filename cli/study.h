@@ -6,6 +6,7 @@
 namespace retrolux::cli {
 
 void SetUpStudyAreas(CLI::App& study, const GlobalOptions& global, Run& run);
+void SetUpStudyHotspot(CLI::App& study, const GlobalOptions& global, Run& run);
 void SetUpStudyLayout(CLI::App& study, const GlobalOptions& global, Run& run);
 void SetUpStudyMarkers(CLI::App& study, const GlobalOptions& global, Run& run);
 void SetUpStudyMotion(CLI::App& study, const GlobalOptions& global, Run& run);

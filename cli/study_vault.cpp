@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "analysis/hotspot_limit.h"
 #include "analysis/vault_report.h"
 #include "analysis/vault_study.h"
 #include "cli/picture_size.h"
@@ -30,6 +31,7 @@ struct StudyVaultCommand {
   std::string visibility = "ids";
   double part_area_mm2 = 4.0;
   std::string size;
+  std::string hotspot_limit;
   bool quick = false;
 };
 
@@ -64,6 +66,13 @@ void SetSize(const std::string& size, Scenario& scenario) {
   const auto [width, height] = ParseSize(size);
   scenario =
       Changed(scenario, "--size", {{"cameras", {{"width_px", width}, {"height_px", height}}}});
+}
+
+// In place of the scenario's least separation.
+void SetHotspotLimit(const std::string& file, Scenario& scenario) {
+  if (file.empty()) return;
+  scenario = Changed(scenario, "--hotspot-limit",
+                     {{"combinations", {{"min_separation_deg", HotspotLimit_deg(file)}}}});
 }
 
 VaultStudyOptions OptionsOf(const StudyVaultCommand& command) {
@@ -146,6 +155,7 @@ class VaultCommand {
                         const std::filesystem::path& folder) {
     const StudyRun run(global_);
     SetSize(command_.size, scenario);
+    SetHotspotLimit(command_.hotspot_limit, scenario);
     options.masks = ChooseMasks(command_, scenario);
     CheckInput(scenario, options);
     WarnOfMeshes(scenario, options.masks);
@@ -280,6 +290,10 @@ void SetUpStudyVault(CLI::App& study, const GlobalOptions& global, Run& run) {
       ->check(CLI::Range(1e-3, 1e4))
       ->capture_default_str();
   sub->add_option("--size", command->size, "pixels of the cameras, same field of view");
+  sub->add_option("--hotspot-limit", command->hotspot_limit,
+                  "summary.json of study hotspot: the least separation of two cameras is the one "
+                  "from which on a neighbour's ring changes nothing that robust measures, instead "
+                  "of the scenario's");
   sub->add_flag("--quick", command->quick,
                 "the search only: no sensitivity, no variations, no refinement between the grid");
   sub->callback([command, &global, &run] {

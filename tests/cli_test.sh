@@ -699,6 +699,24 @@ holds "study motion: followed, hidden, back; the alarm" motion/summary.json \
   bad "study motion: missed in four frames" "$(cut -d, -f1,16- motion/motion.csv | grep missed | head -5 | tr '\n' ' ')"
 [ -s motion/report.html ] && good "study motion: report" || bad "study motion: report" "$(ls motion)"
 
+# ------------------------------------------------------------------------------------------------------ study hotspot
+hotspot="study hotspot --angles 3,15 --scene none --variations none --placements 1 --exposures 2 --spp 1"
+# shellcheck disable=SC2086
+succeed "study hotspot" $hotspot --threads 1 --out hot1
+# shellcheck disable=SC2086
+succeed "study hotspot on 2 threads" $hotspot --threads 2 --out hot2
+same "study hotspot: the same on 2 threads" hot1 hot2 hotspot.csv rings.csv verdict.csv summary.json pictures/default_15_0_neighbours.png
+rm hot2/tasks/*.json
+# shellcheck disable=SC2086
+succeed "study hotspot again" $hotspot --out hot2
+same "study hotspot: the same again" hot1 hot2 hotspot.csv rings.csv
+holds "study hotspot: the retro-reflective tail is gone at 15 degrees" hot1/summary.json \
+  'json.limits.find((l) => l.rings === "both" && l.criterion === "retro tail").limit_deg === 15'
+refuse "study hotspot: angles" "--angles: found '2:x:1'; expected FROM:TO:STEP" bad study hotspot --angles 2:x:1 --out bad
+refuse "study hotspot: unknown variation" "variation: found 'gold'; expected one of face" bad study hotspot --variations gold --out bad
+refuse "study hotspot: unknown mask" "mask: found 'hat'; expected oval or face" bad study hotspot --mask hat --out bad
+refuse "study hotspot: a room without a mask" "chessboard" bad study hotspot --scene chessboard --out bad
+
 # ------------------------------------------------------------------------------------------------------- study layout
 succeed "study layout" study layout --poses reference --spp 1 --threads 1 --out layout1
 succeed "study layout on 2 threads" study layout --poses reference --spp 1 --threads 2 --out layout2
@@ -712,7 +730,7 @@ holds "study layout on the face: what the search promised" layout-face/layout.js
 refuse "study layout: no mask" "no object 'mask' that moves with the pose" bad study layout --scene sphere --out bad
 
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export" evaluate stereo "study stereo" "study motion" "study layout"; do
+for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export" evaluate stereo "study stereo" "study motion" "study layout" "study hotspot"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"

@@ -263,6 +263,10 @@ function checkStereo(schemas, work) {
   const study = run(work, 'study', 'stereo', '--quick', '--json', '--out', 'stereo-study');
   if (study !== null) checkText(schemas, 'standard output of study stereo --json', study);
   run(work, 'study', 'motion', '--frames', '14', '--spp', '1', '--out', 'motion');
+  const few = ['--angles', '5', '--variations', 'none', '--scene', 'none', '--placements', '1'];
+  const least = ['--exposures', '2', '--spp', '1'];
+  const hot = run(work, 'study', 'hotspot', ...few, ...least, '--json', '--out', 'hotspot');
+  if (hot !== null) checkText(schemas, 'standard output of study hotspot --json', hot);
 }
 
 /** Six markers on the oval, in one pose. */
