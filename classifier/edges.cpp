@@ -6,10 +6,10 @@
 #include "classifier/debug_pictures.h"
 #include "classifier/ellipse_fit.h"
 #include "classifier/gradient.h"
+#include "classifier/option_range.h"
 #include "classifier/pattern.h"
 #include "classifier/polygon_fit.h"
 #include "classifier/shape_match.h"
-#include "core/error.h"
 
 namespace retrolux {
 
@@ -103,28 +103,25 @@ Detection Identify(const Pattern& pattern, const MarkerSet& markers, const Edges
   return detection;
 }
 
-void CheckRange(const char* name, double value, double min, double max) {
-  if (value >= min && value <= max) return;
-  throw InputError(fmt::format("method edges: {} = {}; expected {} to {}", name, value, min, max));
-}
-
 }  // namespace
 
 void EdgesOptions::Check() const {
+  const auto check = [](const char* name, double value, double min, double max) {
+    CheckOption("edges", name, value, min, max);
+  };
   constexpr double kMany = 1e9;
-  CheckRange("min_area_px", min_area_px, 10.0, kMany);
-  CheckRange("min_slope_sigma", min_slope_sigma, 1.0, kMany);
-  CheckRange("min_contrast_sigma", min_contrast_sigma, 1.0, kMany);
-  CheckRange("max_blur_px", max_blur_px, 0.1, kMany);
-  CheckRange("straightness_px", straightness_px, 0.01, kMany);
-  CheckRange("bend", bend, 0.0, 1.0);
-  CheckRange("min_gain", min_gain, 1.0, kMany);
-  CheckRange("min_edge_px", min_edge_px, 1.0, kMany);
-  CheckRange("min_turn_deg", min_turn_deg, 0.0, 90.0);
-  CheckRange("max_shape_error_px", max_shape_error_px, 0.01,
-             std::numeric_limits<double>::infinity());
-  CheckRange("max_shape_error", max_shape_error, 0.0, kMany);
-  CheckRange("max_tilt_deg", max_tilt_deg, 1.0, 90.0);
+  check("min_area_px", min_area_px, 10.0, kMany);
+  check("min_slope_sigma", min_slope_sigma, 1.0, kMany);
+  check("min_contrast_sigma", min_contrast_sigma, 1.0, kMany);
+  check("max_blur_px", max_blur_px, 0.1, kMany);
+  check("straightness_px", straightness_px, 0.01, kMany);
+  check("bend", bend, 0.0, 1.0);
+  check("min_gain", min_gain, 1.0, kMany);
+  check("min_edge_px", min_edge_px, 1.0, kMany);
+  check("min_turn_deg", min_turn_deg, 0.0, 90.0);
+  check("max_shape_error_px", max_shape_error_px, 0.01, std::numeric_limits<double>::infinity());
+  check("max_shape_error", max_shape_error, 0.0, kMany);
+  check("max_tilt_deg", max_tilt_deg, 1.0, 90.0);
 }
 
 std::vector<Detection> IdentifyByEdges(const DigitalImage& image, const MarkerSet& markers,

@@ -5,14 +5,18 @@
 
 #include "classifier/debug_pictures.h"
 #include "classifier/judge.h"
-#include "core/error.h"
+#include "classifier/option_range.h"
 
 namespace retrolux {
 
 namespace {
 
-// Names that must agree on the size of a marker before they can refute another.
-constexpr size_t kWitnesses = 3;
+// Other names that it takes to refute one by its size: of shapes of three or four edges, which
+// parts of others imitate, and of the rest.
+size_t Witnesses(const JudgedPattern& judged) {
+  const int edges = judged.detection.straight_edges;
+  return edges == 3 || edges == 4 ? 1 : 3;
+}
 
 // The same picture seen as its negative: dark patterns become bright.
 void MakeNegative(GradientField& field, FloatPlane& relief, EdgeBands& bands) {
@@ -38,10 +42,13 @@ bool IsSettled(const Pattern& pattern, bool dark, const std::vector<JudgedPatter
   constexpr double kSame_px = 1.0, kSameArea = 1.12;
   const Vec2d middle = Centroid(pattern.outline);
   return std::any_of(judged.begin(), judged.end(), [&](const JudgedPattern& j) {
-    if (j.detection.marker) return Contains(j.fitted_px, middle);
+    const double away = (Centroid(j.outline_px) - middle).norm();
+    // The middle of an angle lies outside of it.
+    if (j.detection.marker) {
+      return Contains(j.fitted_px, middle) || away < 0.25 * std::sqrt(pattern.area_px);
+    }
     const double ratio = j.detection.area_px / pattern.area_px;
-    return j.dark == dark && ratio < kSameArea && ratio > 1.0 / kSameArea &&
-           (Centroid(j.outline_px) - middle).norm() < kSame_px;
+    return j.dark == dark && away < kSame_px && ratio < kSameArea && ratio > 1.0 / kSameArea;
   });
 }
 
@@ -93,7 +100,7 @@ void DropOddSizes(double max_ratio, const std::vector<ShapeModel>& models,
           &other != &j && other.detection.marker && other.evidence.straight_edges != 3;
       if (tells) others.push_back(other.evidence.half_size_px);
     }
-    if (others.size() < kWitnesses) continue;
+    if (others.size() < Witnesses(j)) continue;
     const auto middle = others.begin() + static_cast<ptrdiff_t>(others.size() / 2);
     std::nth_element(others.begin(), middle, others.end());
     const std::vector<double> sizes = SizesOf(j, models);
@@ -108,32 +115,30 @@ void DropOddSizes(double max_ratio, const std::vector<ShapeModel>& models,
   }
 }
 
-void CheckRange(const char* name, double value, double min, double max) {
-  if (value >= min && value <= max) return;
-  throw InputError(fmt::format("method robust: {} = {}; expected {} to {}", name, value, min, max));
-}
-
 }  // namespace
 
 void RobustOptions::Check() const {
+  const auto check = [](const char* name, double value, double min, double max) {
+    CheckOption("robust", name, value, min, max);
+  };
   constexpr double kMany = 1e9;
-  CheckRange("min_area_px", min_area_px, 10.0, kMany);
-  CheckRange("min_slope_sigma", min_slope_sigma, 1.0, kMany);
-  CheckRange("min_contrast_sigma", min_contrast_sigma, 1.0, kMany);
-  CheckRange("max_edge_blur_px", max_edge_blur_px, 0.1, kMany);
-  CheckRange("turns", turns, 1.0, 8.0);
-  CheckRange("likely_outline", likely_outline, 0.0, 1.0);
-  CheckRange("fits", fits, 1.0, 64.0);
-  CheckRange("patch.margin_px", patch.margin_px, 1.0, 20.0);
-  CheckRange("patch.most_pixels", patch.most_pixels, 100.0, kMany);
-  CheckRange("fit.max_steps", fit.max_steps, 1.0, 100.0);
-  CheckRange("fit.converged_px", fit.converged_px, 1e-6, 1.0);
-  CheckRange("fit.max_blur_px", fit.max_blur_px, 0.1, std::sqrt(Coverage::kMaxVariance_px2));
-  CheckRange("fit.curvature", fit.curvature, 1e-4, 1.0);
-  CheckRange("fit.focal_px", fit.focal_px, 10.0, kMany);
-  CheckRange("min_probability", min_probability, 0.0, 1.0);
-  CheckRange("max_size_ratio", max_size_ratio, 1.0, kMany);
-  if (black_dn) CheckRange("black_dn", *black_dn, 0.0, 65535.0);
+  check("min_area_px", min_area_px, 10.0, kMany);
+  check("min_slope_sigma", min_slope_sigma, 1.0, kMany);
+  check("min_contrast_sigma", min_contrast_sigma, 1.0, kMany);
+  check("max_edge_blur_px", max_edge_blur_px, 0.1, kMany);
+  check("turns", turns, 1.0, 8.0);
+  check("likely_outline", likely_outline, 0.0, 1.0);
+  check("fits", fits, 1.0, 64.0);
+  check("patch.margin_px", patch.margin_px, 1.0, 20.0);
+  check("patch.most_pixels", patch.most_pixels, 100.0, kMany);
+  check("fit.max_steps", fit.max_steps, 1.0, 100.0);
+  check("fit.converged_px", fit.converged_px, 1e-6, 1.0);
+  check("fit.max_blur_px", fit.max_blur_px, 0.1, std::sqrt(Coverage::kMaxVariance_px2));
+  check("fit.curvature", fit.curvature, 1e-4, 1.0);
+  check("fit.focal_px", fit.focal_px, 10.0, kMany);
+  check("min_probability", min_probability, 0.0, 1.0);
+  check("max_size_ratio", max_size_ratio, 1.0, kMany);
+  if (black_dn) check("black_dn", *black_dn, 0.0, 65535.0);
 }
 
 std::vector<JudgedPattern> JudgePatterns(const DigitalImage& image, const MarkerSet& markers,
