@@ -95,7 +95,7 @@ int RunStudyHotspot(StudyHotspotCommand command, const GlobalOptions& global) {
   WriteHotspotStudyReport(study, command.out, global.command_line);
   run.Write(
       command.out,
-      {{"pictures", study.tasks.done_before + study.tasks.done_now},
+      {{"views", study.tasks.done_before + study.tasks.done_now},
        {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
   const std::filesystem::path report = command.out / "report.html";
   const std::string tasks = study.tasks.Text();
