@@ -23,7 +23,7 @@ bool WithinLimits(const Evidence& e) {
   const bool ring = round && (e.least_contrast > 2.0 || e.free_share < 0.45);
   return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead && e.bend < 40.0 &&
          e.foreshortening > least_foreshortening && e.area_px >= 40.0 && flat && !cut && !ring &&
-         alone && e.least_contrast > 0.3;
+         alone && e.least_contrast > 0.2;
 }
 
 // Common to all: how well it fits, how far the next is, how bent it is, what lies around it, how
@@ -31,9 +31,9 @@ bool WithinLimits(const Evidence& e) {
 struct Weights {
   double constant, misfit, lead, bend, ground_step, least_contrast, contrast;
 };
-constexpr Weights kFewEdges{0.012, -1.291, 0.636, -0.939, 0.0, -0.814, 0.286};
-constexpr Weights kManyEdges{-3.050, -1.326, 1.648, -0.182, 0.0, 0.347, 0.782};
-constexpr Weights kRound{4.964, 0.0, 0.021, 0.0, 0.0, 3.592, -0.219};
+constexpr Weights kFewEdges{-0.254, -1.204, 0.619, -0.941, 0.0, -0.453, 0.293};
+constexpr Weights kManyEdges{-3.213, -1.496, 1.501, -0.081, -0.076, 1.206, 0.727};
+constexpr Weights kRound{4.498, 0.0, 0.121, 0.0, 0.0, 4.105, -0.251};
 
 double Common(const Evidence& e, const Weights& w) {
   return w.constant + w.misfit * std::log(std::max(e.misfit, 0.7)) +
@@ -47,8 +47,8 @@ double Common(const Evidence& e, const Weights& w) {
 struct SizeWeights {
   double saddle, half_size, area;
 };
-constexpr SizeWeights kFewEdgesSize{-0.377, -0.017, 1.434};
-constexpr SizeWeights kManyEdgesSize{-0.600, 2.934, 1.819};
+constexpr SizeWeights kFewEdgesSize{-0.360, 0.263, 1.334};
+constexpr SizeWeights kManyEdgesSize{-0.720, 2.199, 1.840};
 
 double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
   return Common(e, w) + s.saddle * std::min(e.saddle, 0.1) / 0.01 +
@@ -57,7 +57,7 @@ double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
 
 // Glints are blurred, white, or have a peak; a ring's dark middle has no ground around it.
 double OfDisc(const Evidence& e) {
-  constexpr double kSize = -1.804, kBlur = -3.265, kWhite = -6.036, kFree = 2.502, kPeak = -0.666;
+  constexpr double kSize = -1.783, kBlur = -3.244, kWhite = -6.060, kFree = 2.043, kPeak = -0.521;
   const double narrow_px = e.half_size_px * e.foreshortening;
   return Common(e, kRound) + kSize * std::log(narrow_px / 5.0) +
          kBlur * 10.0 * std::min(e.blur_px / narrow_px, 0.5) + kWhite * e.white_share +

@@ -44,7 +44,7 @@ struct RobustOptions {
   PatchOptions patch;
   FitOptions fit;
   // A name is given if its probability is at least this. Larger trades names for safety.
-  double min_probability = 0.975;
+  double min_probability = 0.97;
   // A name is taken back if at least three others, for three or four edges one, say that markers
   // have another size in this picture, by more than this factor: parts of markers look like whole
   // ones of another size. Distances of one picture differ less. Large switches it off.
