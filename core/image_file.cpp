@@ -125,26 +125,43 @@ void WriteExr(const fs::path& file, const ExrImage& image) {
   atomic.Commit();
 }
 
+namespace {
+
+// The channel that begins at `first` in each pixel of `native`, pixels of `stride` bytes.
+template <typename Value>
+void TakeChannel(const std::vector<char>& native, size_t first, size_t stride, OIIO::TypeDesc from,
+                 OIIO::TypeDesc to, Plane<Value>& plane) {
+  std::vector<char> values(plane.data.size() * from.size());
+  for (size_t i = 0; i < plane.data.size(); ++i)
+    std::memcpy(&values[i * from.size()], &native[i * stride + first], from.size());
+  RETROLUX_CHECK(OIIO::convert_types(from, values.data(), to, plane.data.data(),
+                                     static_cast<int>(plane.data.size())),
+                 "{} to {}", from.c_str(), to.c_str());
+}
+
+}  // namespace
+
 ExrImage ReadExr(const fs::path& file) {
   auto input = Open(file);
   const OIIO::ImageSpec& spec = input->spec();
-  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  // All channels at once, in the file's own types: each reading unpacks the whole file.
+  const size_t stride = spec.pixel_bytes(true);
+  std::vector<char> native(spec.image_pixels() * stride);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUnknown, native.data()))
+    throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
   ExrImage image;
   for (int c = 0; c < spec.nchannels; ++c) {
-    const bool ids = spec.channelformat(c) == OIIO::TypeUInt32;
-    ExrChannel channel{spec.channel_name(c), FloatPlane{}};
-    if (ids) channel.plane = IdPlane{};
-    std::visit(
-        [&](auto& plane) {
-          plane.width = spec.width;
-          plane.height = spec.height;
-          plane.data.resize(pixels);
-          const OIIO::TypeDesc format = ids ? OIIO::TypeUInt32 : OIIO::TypeFloat;
-          if (!input->read_image(0, 0, c, c + 1, format, plane.data.data())) {
-            throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
-          }
-        },
-        channel.plane);
+    const OIIO::TypeDesc from = spec.channelformat(c);
+    const size_t first = spec.pixel_bytes(0, c, true);
+    ExrChannel channel{spec.channel_name(c), FloatPlane(spec.width, spec.height)};
+    if (from == OIIO::TypeUInt32) {
+      IdPlane ids(spec.width, spec.height);
+      TakeChannel(native, first, stride, from, OIIO::TypeUInt32, ids);
+      channel.plane = std::move(ids);
+    } else {
+      TakeChannel(native, first, stride, from, OIIO::TypeFloat,
+                  std::get<FloatPlane>(channel.plane));
+    }
     image.channels.push_back(std::move(channel));
   }
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
@@ -220,6 +237,19 @@ FloatPlane DecodeLinearGrey(const std::string& bytes, const fs::path& file) {
   return grey;
 }
 
+namespace {
+
+template <typename Value>
+std::vector<Value> ReadPixels(OIIO::ImageInput& input, OIIO::TypeDesc type, const fs::path& file) {
+  const OIIO::ImageSpec& spec = input.spec();
+  std::vector<Value> pixels(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
+  if (!input.read_image(0, 0, 0, spec.nchannels, type, pixels.data()))
+    throw InputError::At(file, "", FirstLine(input.geterror()), "a whole picture");
+  return pixels;
+}
+
+}  // namespace
+
 DigitalImage ReadGrey(const fs::path& file) {
   auto input = Open(file);
   const OIIO::ImageSpec& spec = input->spec();
@@ -227,15 +257,19 @@ DigitalImage ReadGrey(const fs::path& file) {
   DigitalImage image;
   image.bits = spec.format.size() == 1 ? 8 : 16;
   image.dn = Plane<uint16_t>(spec.width, spec.height);
-  std::vector<float> pixels(image.dn.data.size() * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data())) {
-    throw InputError::At(file, "", FirstLine(input->geterror()), "a whole picture");
-  }
-  const float full_scale = image.bits == 8 ? 255.0f : 65535.0f;
-  for (size_t i = 0; i < image.dn.data.size(); ++i) {
-    const float grey = Grey(&pixels[i * channels], channels);
-    image.dn.data[i] =
-        static_cast<uint16_t>(std::lround(std::clamp(grey, 0.0f, 1.0f) * full_scale));
+  if (channels == 1 && spec.format == OIIO::TypeUInt8) {  // what we write: no detour by floats
+    const auto pixels = ReadPixels<uint8_t>(*input, OIIO::TypeUInt8, file);
+    image.dn.data.assign(pixels.begin(), pixels.end());
+  } else if (channels == 1 && spec.format == OIIO::TypeUInt16) {
+    image.dn.data = ReadPixels<uint16_t>(*input, OIIO::TypeUInt16, file);
+  } else {
+    const auto pixels = ReadPixels<float>(*input, OIIO::TypeFloat, file);
+    const float full_scale = image.bits == 8 ? 255.0f : 65535.0f;
+    for (size_t i = 0; i < image.dn.data.size(); ++i) {
+      const float grey = Grey(&pixels[i * channels], channels);
+      image.dn.data[i] =
+          static_cast<uint16_t>(std::lround(std::clamp(grey, 0.0f, 1.0f) * full_scale));
+    }
   }
   return image;
 }
