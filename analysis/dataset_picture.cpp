@@ -56,14 +56,13 @@ TraceOptions Tracing(const Stage& stage) {
   TraceOptions trace;
   trace.samples_per_pixel = stage.options.samples_per_pixel;
   trace.seed = CombineKeys(stage.options.seed, HashBytes(stage.drawn.name));
-  trace.direct = TraceOptions::Direct::kOneOfAll;
-  trace.roulette = 0.5f;
+  trace.own_ray_share = 0.1f;
   return trace;
 }
 
 SparseSamples SamplesOf(const RecordOptions& options) {
   const int n = options.samples_per_pixel;
-  return {n, 4 * n, 4 * n};
+  return {n, 2 * n, 4 * n};
 }
 
 void WriteExrOf(const Stage& stage, const CameraSpec& camera, const IdBuffers& ids,
@@ -74,7 +73,7 @@ void WriteExrOf(const Stage& stage, const CameraSpec& camera, const IdBuffers& i
   info.scene_hash = SceneHash(scene);
   info.seed = info.noise_seed = stage.options.seed;
   info.samples_per_pixel = stage.options.samples_per_pixel;
-  info.edge_samples_per_pixel = SamplesOf(stage.options).edge;
+  info.edge_samples_per_pixel = SamplesOf(stage.options).marker;
   info.exposure_s = exposure_s;
   WriteExr(file,
            ShotExr(camera, ids, &film, info, stage.rays.BodyNames(), stage.placed, scene.markers));

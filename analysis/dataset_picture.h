@@ -11,7 +11,7 @@ namespace retrolux {
 
 struct RecordOptions {
   uint64_t seed = 1;          // of light transport and noise
-  int samples_per_pixel = 8;  // see SparseSamples; four times as many at nodes and edges
+  int samples_per_pixel = 8;  // see SparseSamples; four times as many on markers and at nodes
   bool keep_exr = false;
 };
 

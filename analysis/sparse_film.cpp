@@ -64,7 +64,7 @@ class Painter {
  private:
   int SamplesOf(int x, int y) const {
     const Need need = needs_(x, y);
-    if (need == Need::kEdge) return samples_.edge;
+    if (need == Need::kMarker) return samples_.marker;
     return need == Need::kGrid && IsNode(x, y) ? samples_.node : samples_.pixel;
   }
 

@@ -19,7 +19,7 @@ namespace retrolux {
 struct SparseSamples {
   int pixel = 8;  // paths a pixel
   int node = 32;  // of the grid, each of which stands for many pixels
-  int edge = 32;  // at the edges of markers
+  int marker = 32;  // on markers and at their edges
 };
 
 struct SparseFilm {

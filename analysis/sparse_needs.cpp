@@ -70,9 +70,10 @@ Plane<Need> NeedsOf(const Scene& scene, const CameraSpec& camera, const IdBuffer
       const uint32_t object = ids.object(x, y);
       // Behind the objects come rings and panels: small and bright.
       const bool is_fine = object > 0 && (object > fine.size() || fine[object - 1]);
-      if (edges(x, y) != 0) {
-        needs(x, y) = ShowsMarkerNear(ids.marker, x, y) ? Need::kEdge : Need::kTraced;
-      } else if (is_fine || ids.marker(x, y) != 0) {
+      const bool is_edge = edges(x, y) != 0;
+      if (ids.marker(x, y) != 0 || (is_edge && ShowsMarkerNear(ids.marker, x, y))) {
+        needs(x, y) = Need::kMarker;
+      } else if (is_fine || is_edge) {
         needs(x, y) = Need::kTraced;
       }
     }

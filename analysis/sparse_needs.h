@@ -5,9 +5,9 @@
 
 namespace retrolux {
 
-// kGrid: a smooth matt surface, or nothing. kTraced: glossy, textured, perforated or
-// retro-reflective, or at the edge of something. kEdge: at the edge of a marker.
-enum class Need : uint8_t { kGrid, kTraced, kEdge };
+// kGrid: a smooth matt surface, or nothing. kTraced: glossy, textured or perforated, or at the edge
+// of something. kMarker: on a marker, or at its edge.
+enum class Need : uint8_t { kGrid, kTraced, kMarker };
 
 // `ids` of the same scene and camera. Edges are as wide as the lens blurs anything in the picture.
 Plane<Need> NeedsOf(const Scene& scene, const CameraSpec& camera, const IdBuffers& ids);

@@ -18,6 +18,10 @@ using namespace retrolux;
 constexpr int kSpp = 32;
 constexpr int kPixels = 640 * 480;
 
+// TraceOptions::own_ray_share: all groups, and those that the study gives a shadow ray of their
+// own.
+constexpr float kEveryGroup = 0.0f, kStrongGroups = 0.1f;
+
 // The room with one camera ready, and a marker in the middle of its picture.
 struct Bench {
   Scene scene = CtRoom();
@@ -28,11 +32,11 @@ struct Bench {
   PlacedMarker marker = PlaceMarker(scene, {"marker", 2, "mask", Vec3d(100, 0, 20)}, 1);
   MarkerSurface surface = SampleMarkerSurface(rays, marker);
 
-  TraceOptions Options(TraceOptions::Direct direct) const {
+  TraceOptions Options(float own_ray_share) const {
     TraceOptions options;
     options.samples_per_pixel = kSpp;
-    options.direct = direct;
-    if (direct == TraceOptions::Direct::kOneOfAll) options.roulette = 0.5f;  // as the study does
+    options.own_ray_share = own_ray_share;
+    if (own_ray_share > 0.0f) options.roulette = 0.5f;  // as the study does
     return options;
   }
 };
@@ -43,9 +47,9 @@ const Bench& Shared() {
 }
 
 const ComposedCamera& SharedCamera() {
-  static const ComposedCamera camera(
-      Shared().scene, Shared().rays, Shared().camera, RingChoice::kAll,
-      Shared().Options(TraceOptions::Direct::kOneOfAll), NoProgress());
+  static const ComposedCamera camera(Shared().scene, Shared().rays, Shared().camera,
+                                     RingChoice::kAll, Shared().Options(kStrongGroups),
+                                     NoProgress());
   return camera;
 }
 
@@ -92,21 +96,19 @@ void IdPass(benchmark::State& state) {
 }
 BENCHMARK(IdPass)->Unit(benchmark::kMillisecond);
 
-void Paths(benchmark::State& state, TraceOptions::Direct direct) {
+void Paths(benchmark::State& state, float own_ray_share) {
   const Bench& bench = Shared();
   const std::vector<PlacedMarker> markers;
   const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers,
-                          bench.Options(direct));
+                          bench.Options(own_ray_share));
   // A row through the middle of the picture: room, mask, highlight.
   for (auto _ : state) {
     for (int x = 0; x < 640; x += 8) benchmark::DoNotOptimize(tracer.EstimatePixel(x, 150));
   }
   Rate(state, "paths", 80.0 * kSpp);
 }
-BENCHMARK_CAPTURE(Paths, OneOfAllGroups, TraceOptions::Direct::kOneOfAll)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Paths, EveryGroup, TraceOptions::Direct::kEveryGroup)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Paths, StrongGroups, kStrongGroups)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Paths, EveryGroup, kEveryGroup)->Unit(benchmark::kMillisecond);
 
 // The parts of one picture of the study.
 void PictureGeometry(benchmark::State& state) {
@@ -173,7 +175,7 @@ void FullPicture(benchmark::State& state) {
   const Bench& bench = Shared();
   const std::vector<PlacedMarker> markers = {bench.marker};
   const PathTracer tracer(bench.scene, bench.rays, bench.lights, bench.response, markers,
-                          bench.Options(TraceOptions::Direct::kOneOfAll));
+                          bench.Options(kStrongGroups));
   for (auto _ : state) {
     const Film film =
         RenderFilm(tracer, bench.camera.model, bench.lights.GroupNames(), NoProgress());

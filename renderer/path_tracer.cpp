@@ -29,9 +29,16 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, const Lights& l
       image_key_(CombineKeys(options.seed, HashBytes(response.Camera().model.name))) {
   for (const SceneObject& object : scene_.objects)
     material_of_object_.push_back(&scene_.materials.at(object.material));
+  for (int group = 0; group < lights_.GroupCount(); ++group) {
+    group_value_[group] =
+        static_cast<float>(response.ExpectedElectrons(lights_.SpectrumOf(group), 1.0, 1.0));
+  }
 }
 
 namespace {
+
+// A share that no group reaches.
+constexpr float kNoneItsOwn = 2.0f;
 
 BsdfBlend BsdfAt(const Material& material, const Vec2f& uv) {
   if (!material.texture) return {material.bsdf.get(), nullptr, 1.0f};
@@ -65,7 +72,8 @@ PathTracer::Vertex PathTracer::MakeVertex(const Vec3f& direction, const SurfaceH
 }
 
 void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
-                           bool every_group, PixelSampler& sampler, GroupValues& radiance) const {
+                           float own_ray_share, PixelSampler& sampler,
+                           GroupValues& radiance) const {
   const float pick = sampler.Next1D();
   const Vec2f u = sampler.Next2D();
   const float choice = sampler.Next1D();
@@ -82,25 +90,28 @@ void PathTracer::AddDirect(const Vertex& vertex, const Spectral& throughput, con
     unshadowed[group] = throughput[k] * value.f_cos[k] * light->radiance / light->pdf * share;
     targets[static_cast<size_t>(group)] = light->position;
   }
-  if (every_group) {
-    for (int group = 0; group < lights_.GroupCount(); ++group) {
-      if (unshadowed[group] > 0.0f &&
-          !rays_.Occluded(origin, targets[static_cast<size_t>(group)])) {
-        radiance[group] += unshadowed[group];
-      }
-    }
-    return;
+  const auto is_lit = [&](int group) {
+    return !rays_.Occluded(origin, targets[static_cast<size_t>(group)]);
+  };
+  // Drawn by electrons, not by radiance: of two equal radiances the filter may pass one and stop
+  // the other, and a shadow ray for what makes no signal is thrown away.
+  GroupValues electrons = unshadowed * group_value_;
+  const float least = own_ray_share * electrons.sum();
+  for (int group = 0; group < lights_.GroupCount(); ++group) {
+    if (unshadowed[group] <= 0.0f || electrons[group] < least) continue;
+    if (is_lit(group)) radiance[group] += unshadowed[group];
+    electrons[group] = 0.0f;
   }
-  const float sum = unshadowed.sum();
+  const float sum = electrons.sum();
   if (sum <= 0.0f) return;
   float rest = choice * sum;
   int chosen = 0;
   for (int group = 0; group < lights_.GroupCount() && rest >= 0.0f; ++group) {
-    if (unshadowed[group] <= 0.0f) continue;
+    if (electrons[group] <= 0.0f) continue;
     chosen = group;
-    rest -= unshadowed[group];
+    rest -= electrons[group];
   }
-  if (!rays_.Occluded(origin, targets[static_cast<size_t>(chosen)])) radiance[chosen] += sum;
+  if (is_lit(chosen)) radiance[chosen] += sum / group_value_[chosen];
 }
 
 PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, const Spectral& nm,
@@ -126,8 +137,8 @@ PathTracer::PathSample PathTracer::TracePath(Vec3f origin, Vec3f direction, cons
     if (surface == options_.max_surfaces) break;  // only what emits there counts
     const Vertex vertex = MakeVertex(direction, *hit);
     if (surface == 0) path.marker = vertex.marker;
-    const bool every_group = surface == 0 && options_.direct == TraceOptions::Direct::kEveryGroup;
-    AddDirect(vertex, throughput, nm, every_group, sampler, path.radiance);
+    const float own_ray_share = surface == 0 ? options_.own_ray_share : kNoneItsOwn;
+    AddDirect(vertex, throughput, nm, own_ray_share, sampler, path.radiance);
 
     const float lobe = sampler.Next1D();
     const std::optional<BsdfSample> next =

@@ -13,13 +13,11 @@ namespace retrolux {
 struct TraceOptions {
   int samples_per_pixel = 64;
   uint64_t seed = 1;
-  // How direct light is gathered at the first surface of a path. kEveryGroup: a shadow ray to each
-  // light group, so that each group is as clean as it can be. kOneOfAll: one shadow ray, its group
-  // drawn in proportion to the unshadowed contributions; the sum is as clean where nothing is
-  // shadowed, at a fraction of the rays, but the groups one by one are noisier. Both are unbiased.
-  // Further surfaces use kOneOfAll always.
-  enum class Direct { kEveryGroup, kOneOfAll };
-  Direct direct = Direct::kEveryGroup;
+  // Light groups that bring at least this share of the unshadowed electrons to the first surface of
+  // a path get a shadow ray each; of the rest, and at further surfaces of all, one is drawn in
+  // proportion to its electrons. 0: every group its own, so that each is as clean as it can be.
+  // Larger: fewer rays, and as clean a sum where nothing is shadowed, but noisier groups. Unbiased.
+  float own_ray_share = 0.0f;
   int max_surfaces = 6;  // that scatter, of a path
   // Chance of a path to go on, for each unit of the throughput that it carries (at most 0.95).
   // Lower is faster, and noisier in the indirect light only.
@@ -72,7 +70,7 @@ class PathTracer {
   std::optional<LensRays::LensRay> SampleLens(int x, int y, PixelSampler& sampler) const;
   Vertex MakeVertex(const Vec3f& direction, const SurfaceHit& hit) const;
   void AddDirect(const Vertex& vertex, const Spectral& throughput, const Spectral& nm,
-                 bool every_group, PixelSampler& sampler, GroupValues& radiance) const;
+                 float own_ray_share, PixelSampler& sampler, GroupValues& radiance) const;
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -84,6 +82,7 @@ class PathTracer {
   TraceOptions options_;
   uint64_t image_key_;
   std::vector<const Material*> material_of_object_;
+  GroupValues group_value_ = GroupValues::Zero();  // electrons per W/(m2 sr), on the axis
 };
 
 }  // namespace retrolux

@@ -43,7 +43,7 @@ struct Room {
 TraceOptions Options(uint64_t seed) {
   TraceOptions options;
   options.samples_per_pixel = 64;
-  options.direct = TraceOptions::Direct::kOneOfAll;
+  options.own_ray_share = 0.1f;
   options.seed = seed;
   return options;
 }

@@ -366,7 +366,7 @@ Scene RoomWithMarkerFacing(const std::string& camera, double roll_deg) {
 
 // Mean electrons of a small picture by light group, once for each of several seeds.
 std::vector<std::vector<double>> GroupMeans(const Scene& scene, const RayScene& rays,
-                                            RingChoice rings, TraceOptions::Direct direct,
+                                            RingChoice rings, float own_ray_share,
                                             uint64_t first_seed) {
   constexpr int kSeeds = 12, kSamples = 8;
   CameraSpec camera = scene.cameras[0];
@@ -379,7 +379,7 @@ std::vector<std::vector<double>> GroupMeans(const Scene& scene, const RayScene& 
     TraceOptions options;
     options.samples_per_pixel = kSamples;
     options.seed = first_seed + seed;
-    options.direct = direct;
+    options.own_ray_share = own_ray_share;
     const PathTracer tracer(scene, rays, lights, response, markers, options);
     const Film film = RenderFilm(tracer, camera.model, lights.GroupNames(), NoProgress());
     for (size_t g = 0; g < means.size(); ++g) {
@@ -392,25 +392,27 @@ std::vector<std::vector<double>> GroupMeans(const Scene& scene, const RayScene& 
 }
 
 TEST(PathTracer, GroupsDoNotDependOnHowTheyAreSampled) {
-  // Every group of light by a shadow ray of its own, by one shadow ray for all, and alone in the
-  // scene with the room's light: the same means of a small picture of the CT room, each from 12
+  // Every group of light by a shadow ray of its own, by one shadow ray for all but the strongest
+  // (which are most of the light, but not in every group's shadow), by one for all, and alone in
+  // the scene with the room's light: the same means of a small picture of the CT room, each from 12
   // independent renders (z-test on their scatter; with 12 it has heavier tails than a normal
   // number, hence 0.1 % for all).
   const Scene scene = RoomWithMarkerFacing("front-middle", 20.0);
   const RayScene rays(scene);
-  const auto every =
-      GroupMeans(scene, rays, RingChoice::kAll, TraceOptions::Direct::kEveryGroup, 100);
-  const auto one = GroupMeans(scene, rays, RingChoice::kAll, TraceOptions::Direct::kOneOfAll, 200);
-  const auto own =
-      GroupMeans(scene, rays, RingChoice::kOwn, TraceOptions::Direct::kEveryGroup, 300);
+  constexpr float kEveryGroup = 0.0f, kStrongGroups = 0.1f, kOneOfAll = 2.0f;
+  const auto every = GroupMeans(scene, rays, RingChoice::kAll, kEveryGroup, 100);
+  const auto own = GroupMeans(scene, rays, RingChoice::kOwn, kEveryGroup, 300);
   ASSERT_EQ(every.size(), 7u);
   ASSERT_EQ(own.size(), 2u);
-  const double significance = statistics::Sidak(1e-3, 9);
-  for (size_t g = 0; g < every.size(); ++g) {
-    const Moments a = MomentsOf(every[g]), b = MomentsOf(one[g]);
-    EXPECT_GT(a.mean, 0.0);
-    EXPECT_GT(SameMeanPValue(a, b), significance)
-        << "group " << g << ": " << a.mean << " against " << b.mean;
+  const double significance = statistics::Sidak(1e-3, 16);
+  for (const float share : {kStrongGroups, kOneOfAll}) {
+    const auto drawn = GroupMeans(scene, rays, RingChoice::kAll, share, 200);
+    for (size_t g = 0; g < every.size(); ++g) {
+      const Moments a = MomentsOf(every[g]), b = MomentsOf(drawn[g]);
+      EXPECT_GT(a.mean, 0.0);
+      EXPECT_GT(SameMeanPValue(a, b), significance)
+          << "share " << share << ", group " << g << ": " << a.mean << " against " << b.mean;
+    }
   }
   EXPECT_GT(SameMeanPValue(MomentsOf(own[0]), MomentsOf(every[0])), significance);
   EXPECT_GT(SameMeanPValue(MomentsOf(own[1]), MomentsOf(every[6])), significance);
