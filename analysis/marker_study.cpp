@@ -124,7 +124,6 @@ Json ToJson(const RobustOptions& robust) {
           {"curvature", robust.fit.curvature},
           {"focal_px", robust.fit.focal_px},
           {"min_probability", robust.min_probability},
-          {"max_size_ratio", robust.max_size_ratio},
           {"dark", robust.dark},
           {"black_dn", robust.black_dn ? Json(*robust.black_dn) : Json()}};
 }

@@ -1,5 +1,6 @@
 #include "classifier/contour.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace retrolux {
@@ -13,6 +14,10 @@ struct Gate {
   int dx,
       dy;  // heading; the dark pixel is at (x - dy, y + dx), to the right of it when y points down
 };
+
+// A contour that leaves the steep pixels for longer than this many gates is given up: between the
+// patterns, where only noise leads it, it goes on and on.
+constexpr int kLongestGap = 64;
 
 template <typename Real>
 class Tracer {
@@ -30,8 +35,7 @@ class Tracer {
   std::vector<Polygon> Trace() {
     std::vector<Polygon> contours;
     for (int y = 0; y < height_.height; ++y) {
-      for (int x = 0; x + 1 < height_.width; ++x) {
-        if (steep_ != nullptr && (*steep_)(x + x0_, y + y0_) == 0) continue;
+      for (int x = NextSteep(0, y); x + 1 < height_.width; x = NextSteep(x + 1, y)) {
         if (!Bright(x, y) || Bright(x + 1, y) || passed_(x, y)) continue;
         if (auto contour = Follow({x, y, 0, -1})) contours.push_back(std::move(*contour));
       }
@@ -42,6 +46,17 @@ class Tracer {
  private:
   double Height(int x, int y) const { return static_cast<double>(height_(x, y)); }
   bool Bright(int x, int y) const { return height_(x, y) > Real{0}; }
+  // The first steep pixel of the row from x on; the width if there is none.
+  int NextSteep(int x, int y) const {
+    if (steep_ == nullptr) return x;
+    const auto row = steep_->data.begin() + static_cast<ptrdiff_t>(steep_->Index(x0_, y + y0_));
+    const auto next =
+        std::find_if(row + x, row + height_.width, [](int label) { return label != 0; });
+    return static_cast<int>(next - row);
+  }
+  bool OnSteep(const Gate& g) const {
+    return steep_ == nullptr || (*steep_)(g.x + x0_, g.y + y0_) != 0;
+  }
 
   Vec2d Crossing(const Gate& g) const {
     const double left = Height(g.x, g.y);
@@ -69,7 +84,10 @@ class Tracer {
   std::optional<Polygon> Follow(const Gate& start) {
     Polygon contour;
     std::optional<Gate> gate = start;
+    int gap = 0;
     do {
+      gap = OnSteep(*gate) ? 0 : gap + 1;
+      if (gap > kLongestGap) return std::nullopt;
       if (gate->dy == -1) {
         uint8_t& passed = passed_(gate->x, gate->y);
         if (passed) return std::nullopt;  // the rest of an open one

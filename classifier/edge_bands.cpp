@@ -74,16 +74,17 @@ void FindEdgeBands(const GradientField& field, double min_slope_sigma, EdgeBands
   MarkSteep(field, min_slope_sigma, found.labels);
   found.bands.clear();
   std::vector<Pixel> pixels;
-  for (int y = 0; y < found.labels.height; ++y) {
-    for (int x = 0; x < found.labels.width; ++x) {
-      if (found.labels(x, y) != kSteep) continue;
-      EdgeBand band;
-      band.label = static_cast<int>(found.bands.size()) + 1;
-      Flood(found.labels, band.label, {x, y}, pixels);
-      band.box = BoxAround(pixels);
-      band.level = SteepestLevel(field, pixels, band.box);
-      found.bands.push_back(band);
-    }
+  const std::vector<int>& labels = found.labels.data;
+  for (auto next = std::find(labels.begin(), labels.end(), kSteep); next != labels.end();
+       next = std::find(next, labels.end(), kSteep)) {
+    const auto index = static_cast<int>(next - labels.begin());
+    EdgeBand band;
+    band.label = static_cast<int>(found.bands.size()) + 1;
+    Flood(found.labels, band.label, {index % found.labels.width, index / found.labels.width},
+          pixels);
+    band.box = BoxAround(pixels);
+    band.level = SteepestLevel(field, pixels, band.box);
+    found.bands.push_back(band);
   }
 }
 

@@ -7,23 +7,31 @@ namespace retrolux {
 
 namespace {
 
-// Outside of these no pattern was named while the weights were fitted.
-bool WithinLimits(const Evidence& e) {
+// Log odds from which on a size agrees with the others'.
+constexpr double kAgrees = 1.0;
+
+// Outside of these nothing is named. A pattern whose size is that of the picture's other markers
+// (`agrees`) has to answer less.
+bool WithinLimits(const Evidence& e, bool agrees) {
   const bool round = e.straight_edges == 0;
   // Parts of other shapes, strips, glints and rings imitate these.
   const bool imitated = e.straight_edges <= 4;
-  const double least_lead = imitated ? 20.0 : 5.0;
+  const double least_lead = imitated && !agrees ? 20.0 : 5.0;
   // Seen from nearly the side any quadrilateral is anything.
-  const double least_foreshortening = round ? 0.17 : imitated ? 0.30 : 0.20;
+  const double least_foreshortening = round ? 0.17 : !imitated ? 0.20 : agrees ? 0.25 : 0.30;
   // What a cable cuts off a bright square is a triangle, too.
-  const bool cut = !round && imitated && (e.ground_step > 0.35 || e.torn);
-  const bool alone = !imitated || e.framed > 0.3;
-  const bool flat = round || e.saddle < 0.12;
+  const bool cut = !round && imitated && !agrees && (e.ground_step > 0.35 || e.torn);
+  const bool alone = !imitated || e.framed > 0.3 || agrees;
+  const bool flat = round || e.saddle < (agrees ? 0.25 : 0.12);
+  // A nose bends like this, and then nothing else looks like the marker.
+  const bool bent = e.bend > 40.0 && !(agrees && e.bend < 300.0 && e.lead > 500.0);
+  // Where it is as bright as the ground a marker may go on unseen.
+  const double least_contrast = !agrees ? 0.2 : imitated ? 0.05 : -0.05;
   // A ring of diodes, and the dark in its middle.
   const bool ring = round && (e.least_contrast > 2.0 || e.free_share < 0.45);
-  return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead && e.bend < 40.0 &&
-         e.foreshortening > least_foreshortening && e.area_px >= 40.0 && flat && !cut && !ring &&
-         alone && e.least_contrast > 0.2;
+  return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead &&
+         e.foreshortening > least_foreshortening && e.area_px >= 40.0 && flat && !bent && !cut &&
+         !ring && alone && e.least_contrast > least_contrast;
 }
 
 // Common to all: how well it fits, how far the next is, how bent it is, what lies around it, how
@@ -35,10 +43,11 @@ constexpr Weights kFewEdges{-0.254, -1.204, 0.619, -0.941, 0.0, -0.453, 0.293};
 constexpr Weights kManyEdges{-3.213, -1.496, 1.501, -0.081, -0.076, 1.206, 0.727};
 constexpr Weights kRound{4.498, 0.0, 0.121, 0.0, 0.0, 4.105, -0.251};
 
-double Common(const Evidence& e, const Weights& w) {
+// A bend beyond `most_bend` says no more.
+double Common(const Evidence& e, const Weights& w, double most_bend) {
   return w.constant + w.misfit * std::log(std::max(e.misfit, 0.7)) +
          w.lead * std::log(std::min(e.lead, 1000.0) / 10.0) +
-         w.bend * std::min(e.bend, 30.0) / 10.0 +
+         w.bend * std::min(e.bend, most_bend) / 10.0 +
          w.ground_step * std::min(std::sqrt(std::max(e.ground_step, 0.0) / 0.1), 2.0) +
          w.least_contrast * std::min(e.least_contrast, 1.0) +
          w.contrast * std::log(std::min(e.contrast_sigma, 100.0) / 10.0);
@@ -50,8 +59,8 @@ struct SizeWeights {
 constexpr SizeWeights kFewEdgesSize{-0.360, 0.263, 1.334};
 constexpr SizeWeights kManyEdgesSize{-0.720, 2.199, 1.840};
 
-double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
-  return Common(e, w) + s.saddle * std::min(e.saddle, 0.1) / 0.01 +
+double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s, double most_bend) {
+  return Common(e, w, most_bend) + s.saddle * std::min(e.saddle, 0.1) / 0.01 +
          s.half_size * std::log(e.half_size_px / 10.0) + s.area * std::log(e.area_px / 100.0);
 }
 
@@ -59,7 +68,7 @@ double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s) {
 double OfDisc(const Evidence& e) {
   constexpr double kSize = -1.783, kBlur = -3.244, kWhite = -6.060, kFree = 2.043, kPeak = -0.521;
   const double narrow_px = e.half_size_px * e.foreshortening;
-  return Common(e, kRound) + kSize * std::log(narrow_px / 5.0) +
+  return Common(e, kRound, 0.0) + kSize * std::log(narrow_px / 5.0) +
          kBlur * 10.0 * std::min(e.blur_px / narrow_px, 0.5) + kWhite * e.white_share +
          kFree * std::min(e.free_share, 0.7) / 0.7 +
          kPeak * std::clamp(std::abs(e.peak) - 0.03, 0.0, 0.2) / 0.1;
@@ -67,12 +76,14 @@ double OfDisc(const Evidence& e) {
 
 }  // namespace
 
-double NameProbability(const Evidence& e) {
-  if (!WithinLimits(e)) return 0.0;
+double NameProbability(const Evidence& e, double size_log_odds) {
+  const bool agrees = size_log_odds > kAgrees;
+  if (!WithinLimits(e, agrees)) return 0.0;
+  const double most_bend = agrees ? 10.0 : 30.0;
   const double sum = e.straight_edges == 0   ? OfDisc(e)
-                     : e.straight_edges <= 4 ? OfPolygon(e, kFewEdges, kFewEdgesSize)
-                                             : OfPolygon(e, kManyEdges, kManyEdgesSize);
-  return 1.0 / (1.0 + std::exp(-sum));
+                     : e.straight_edges <= 4 ? OfPolygon(e, kFewEdges, kFewEdgesSize, most_bend)
+                                             : OfPolygon(e, kManyEdges, kManyEdgesSize, most_bend);
+  return 1.0 / (1.0 + std::exp(-sum - size_log_odds));
 }
 
 }  // namespace retrolux

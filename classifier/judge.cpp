@@ -25,8 +25,9 @@ constexpr double kPoor = 4.0;
 constexpr double kGood = 1.6;
 // Chi-square of a bend, and a saddle, that need no other turn of the same marker to explain them.
 constexpr double kLittleBend = 6.0, kLittleSaddle = 0.005;
-// A rival that leaves mean squares larger by this factor is given up.
-constexpr double kHopeless = 9.0;
+// A rival that leaves mean squares larger by this factor is given up, or chi-square larger by this:
+// a lead of a quarter of it is as good as any (evidence.cpp).
+constexpr double kHopeless = 9.0, kHopelessLead = 4000.0;
 // A saddle as strong as this counts as one standard deviation.
 constexpr double kSaddle = 0.007;
 // The blur that a fit begins with, px^2.
@@ -170,8 +171,9 @@ bool Judge::Settled(size_t model, double noise) const {
 void Judge::Fit(const Proposal& proposal, MarkerFit first, double noise) {
   FitOptions options = options_.fit;
   if (!tried_.empty()) options.max_steps = std::min(options.max_steps, kRivalSteps);
+  const double hopeless = std::min(kHopeless, 1.0 + kHopelessLead / patch_.count);
   for (const Tried& t : tried_) {
-    options.hopeless = std::min(options.hopeless, kHopeless * t.fit.mean_squares);
+    options.hopeless = std::min(options.hopeless, hopeless * t.fit.mean_squares);
   }
   first.map = proposal.map.InPixels(patch_.origin_px, patch_.scale);
   const auto fit = FitMarker(patch_, models_[proposal.model], first, noise, options, coverage_);

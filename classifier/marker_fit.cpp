@@ -41,6 +41,28 @@ struct Equations {
   double bend = 0.0;  // chi-square of the bend
 };
 
+// MarkerLightAt of the pixels of one row, from left to right: the logarithm is of second degree, so
+// that each pixel's light is the last one's times a factor that changes by a factor of its own.
+class LightAlongRow {
+ public:
+  LightAlongRow(const Light& light, const Patch& patch, int y) {
+    const Vec2d first = PlaceInPatch(patch, Vec2d(0, y));
+    const double step = PlaceInPatch(patch, Vec2d(1, y)).x() - first.x();
+    const auto l = light.tail<kMarker>();
+    value_ = MarkerLightAt(light, first);
+    factor_ = std::exp(step * (l(1) + l(3) * (2.0 * first.x() + step) + l(4) * first.y()));
+    change_ = std::exp(2.0 * l(3) * step * step);
+  }
+  double Value() const { return value_; }
+  void Next() {
+    value_ *= factor_;
+    factor_ *= change_;
+  }
+
+ private:
+  double value_, factor_, change_;
+};
+
 // Edge pixels know everything, others only the light: their sums are made apart.
 Equations Assemble(const Patch& patch, const MarkerFit& fit, const Coverage& coverage) {
   thread_local Rows rows;
@@ -52,13 +74,14 @@ Equations Assemble(const Patch& patch, const MarkerFit& fit, const Coverage& cov
   outer.setZero();
   inner.setZero();
   for (int y = 0; y < patch.dn.height; ++y) {
-    for (int x = 0; x < patch.dn.width; ++x) {
+    LightAlongRow marker_light(fit.light, patch, y);
+    for (int x = 0; x < patch.dn.width; ++x, marker_light.Next()) {
       if (patch.used(x, y) == 0) continue;
       const float* c = coverage.At(x, y);
       const Vec2d p = PlaceInPatch(patch, Vec2d(x, y));
       const double b = SurroundingsAt(fit.light, p);
       const bool outside = c[0] < kPure;
-      const double m = outside ? b : MarkerLightAt(fit.light, p);
+      const double m = outside ? b : marker_light.Value();
       const auto covered = static_cast<double>(c[0]);
       const double residual = static_cast<double>(patch.dn(x, y)) - b - covered * (m - b);
       if (residual < 0.0 && patch.dn(x, y) >= patch.white_dn) continue;  // as bright as can be

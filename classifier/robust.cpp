@@ -6,17 +6,11 @@
 #include "classifier/debug_pictures.h"
 #include "classifier/judge.h"
 #include "classifier/option_range.h"
+#include "classifier/size_consensus.h"
 
 namespace retrolux {
 
 namespace {
-
-// Other names that it takes to refute one by its size: of shapes of three or four edges, which
-// parts of others imitate, and of the rest.
-size_t Witnesses(const JudgedPattern& judged) {
-  const int edges = judged.detection.straight_edges;
-  return edges == 3 || edges == 4 ? 1 : 3;
-}
 
 // The same picture seen as its negative: dark patterns become bright.
 void MakeNegative(GradientField& field, FloatPlane& relief, EdgeBands& bands) {
@@ -67,54 +61,6 @@ double Darkest(const FloatPlane& smooth) {
   return static_cast<double>(*std::min_element(smooth.data.begin(), smooth.data.end()));
 }
 
-// The sizes that a named pattern may have. A triangle looks the same from each of its corners, and
-// each says another size.
-std::vector<double> SizesOf(const JudgedPattern& judged, const std::vector<ShapeModel>& models) {
-  const Polygon& found = judged.detection.corners_px;
-  if (found.size() != 3) return {judged.evidence.half_size_px};
-  const auto model = std::find_if(models.begin(), models.end(), [&](const ShapeModel& m) {
-    return m.number == judged.detection.marker;
-  });
-  const Polygon& seen = model->corners;
-  Eigen::Matrix2d sides;
-  sides << seen[1] - seen[0], seen[2] - seen[0];
-  std::vector<double> sizes;
-  for (size_t first = 0; first < 3; ++first) {
-    const Vec2d& corner = found[first];
-    Eigen::Matrix2d mapped;
-    mapped << found[(first + 1) % 3] - corner, found[(first + 2) % 3] - corner;
-    sizes.push_back(ViewOf(mapped * sides.inverse()).half_size_px);
-  }
-  return sizes;
-}
-
-// Takes the names away whose markers would be much larger or smaller than all others say.
-void DropOddSizes(double max_ratio, const std::vector<ShapeModel>& models,
-                  std::vector<JudgedPattern>& judged) {
-  std::vector<JudgedPattern*> odd;
-  for (JudgedPattern& j : judged) {
-    if (!j.detection.marker) continue;
-    std::vector<double> others;
-    for (const JudgedPattern& other : judged) {
-      const bool tells =
-          &other != &j && other.detection.marker && other.evidence.straight_edges != 3;
-      if (tells) others.push_back(other.evidence.half_size_px);
-    }
-    if (others.size() < Witnesses(j)) continue;
-    const auto middle = others.begin() + static_cast<ptrdiff_t>(others.size() / 2);
-    std::nth_element(others.begin(), middle, others.end());
-    const std::vector<double> sizes = SizesOf(j, models);
-    const bool fits = std::any_of(sizes.begin(), sizes.end(), [&](double size) {
-      return size < max_ratio * *middle && size > *middle / max_ratio;
-    });
-    if (!fits) odd.push_back(&j);
-  }
-  for (JudgedPattern* j : odd) {
-    j->detection.marker.reset();
-    j->detection.confidence = 0.0;
-  }
-}
-
 }  // namespace
 
 void RobustOptions::Check() const {
@@ -137,7 +83,6 @@ void RobustOptions::Check() const {
   check("fit.curvature", fit.curvature, 1e-4, 1.0);
   check("fit.focal_px", fit.focal_px, 10.0, kMany);
   check("min_probability", min_probability, 0.0, 1.0);
-  check("max_size_ratio", max_size_ratio, 1.0, kMany);
   if (black_dn) check("black_dn", *black_dn, 0.0, 65535.0);
 }
 
@@ -171,7 +116,7 @@ std::vector<JudgedPattern> JudgePatterns(const DigitalImage& image, const Marker
     decide(FindTornPatterns(field, bands, relief, limits), true);
     MakeNegative(field, relief, bands);
   }
-  DropOddSizes(options.max_size_ratio, models, judged);
+  NameBySize(models, options.min_probability, judged);
   if (debug != nullptr) WriteDebugPictures(*debug, field, bands, judged);
   return judged;
 }

@@ -12,6 +12,7 @@
 //   dark_frame.h   whether a dark marker lies on a bright square of its own
 //   evidence.h     what speaks for and against a name, and its probability
 //   judge.h        the decision on one pattern
+//   size_consensus.h  what the markers of a picture say of one another
 #pragma once
 
 #include <filesystem>
@@ -45,10 +46,6 @@ struct RobustOptions {
   FitOptions fit;
   // A name is given if its probability is at least this. Larger trades names for safety.
   double min_probability = 0.97;
-  // A name is taken back if at least three others, for three or four edges one, say that markers
-  // have another size in this picture, by more than this factor: parts of markers look like whole
-  // ones of another size. Distances of one picture differ less. Large switches it off.
-  double max_size_ratio = 1.35;
   bool dark = true;  // whether dark shapes on bright ground are looked for, too
   // What a pixel without light reads, DN, for the centroid of the light. Unset: the darkest of the
   // smoothed picture.
