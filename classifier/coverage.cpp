@@ -31,10 +31,8 @@ std::vector<float> BlurWeights(double variance) {
   return weights;
 }
 
-using Channels = Eigen::Array<float, Coverage::kChannels, 1>;
-
-Eigen::Map<Channels> ChannelsAt(std::vector<float>& data, size_t index) {
-  return Eigen::Map<Channels>(&data[index]);
+void AddWeighted(const float* from, float weight, size_t count, float* to) {
+  for (size_t i = 0; i < count; ++i) to[i] += weight * from[i];
 }
 
 }  // namespace
@@ -123,7 +121,8 @@ void Coverage::SumRows() {
   }
 }
 
-// Along rows, then along columns; only where the covered pixels reach.
+// Along rows, then along columns; only where the covered pixels reach. What a tap of the kernel
+// brings to a row is the row itself, shifted: long loops over neighbouring numbers.
 void Coverage::Blur(const PixelBox& covered, double variance_px2) {
   const std::vector<float> weights = BlurWeights(variance_px2);
   const int reach = static_cast<int>(weights.size()) - 1;
@@ -131,26 +130,21 @@ void Coverage::Blur(const PixelBox& covered, double variance_px2) {
                       std::min(covered.x1 + reach, width_), covered.y1};
   const PixelBox all{wide.x0, std::max(covered.y0 - reach, 0), wide.x1,
                      std::min(covered.y1 + reach, height_)};
+  const auto weight = [&](int tap) { return weights[static_cast<size_t>(std::abs(tap))]; };
   other_.assign(data_.size(), 0.0f);
   for (int y = wide.y0; y < wide.y1; ++y) {
-    for (int x = wide.x0; x < wide.x1; ++x) {
-      Channels sum = Channels::Zero();
-      for (int from = std::max(x - reach, 0); from <= std::min(x + reach, width_ - 1); ++from) {
-        sum += weights[static_cast<size_t>(std::abs(from - x))] * ChannelsAt(data_, Index(from, y));
-      }
-      ChannelsAt(other_, Index(x, y)) = sum;
+    for (int tap = -reach; tap <= reach; ++tap) {
+      const int x0 = std::max(wide.x0, -tap), x1 = std::min(wide.x1, width_ - tap);
+      if (x0 >= x1) continue;
+      AddWeighted(&data_[Index(x0 + tap, y)], weight(tap), static_cast<size_t>(x1 - x0) * kChannels,
+                  &other_[Index(x0, y)]);
     }
   }
+  const auto row = static_cast<size_t>(all.x1 - all.x0) * kChannels;
   for (int y = all.y0; y < all.y1; ++y) {
-    for (int x = all.x0; x < all.x1; ++x) {
-      Channels sum = Channels::Zero();
-      for (int from = std::max(y - reach, wide.y0); from <= std::min(y + reach, wide.y1 - 1);
-           ++from) {
-        sum +=
-            weights[static_cast<size_t>(std::abs(from - y))] * ChannelsAt(other_, Index(x, from));
-      }
-      ChannelsAt(data_, Index(x, y)) = sum;
-    }
+    std::fill_n(&data_[Index(all.x0, y)], row, 0.0f);
+    for (int from = std::max(y - reach, wide.y0); from <= std::min(y + reach, wide.y1 - 1); ++from)
+      AddWeighted(&other_[Index(all.x0, from)], weight(from - y), row, &data_[Index(all.x0, y)]);
   }
 }
 

@@ -23,10 +23,11 @@ bool WithinLimits(const Evidence& e, bool agrees) {
   const bool cut = !round && imitated && !agrees && (e.ground_step > 0.35 || e.torn);
   const bool alone = !imitated || e.framed > 0.3 || agrees;
   const bool flat = round || e.saddle < (agrees ? 0.25 : 0.12);
-  // A nose bends like this, and then nothing else looks like the marker.
-  const bool bent = e.bend > 40.0 && !(agrees && e.bend < 300.0 && e.lead > 500.0);
-  // Where it is as bright as the ground a marker may go on unseen.
-  const double least_contrast = !agrees ? 0.2 : imitated ? 0.05 : -0.05;
+  // A nose bends like this, and a marker goes on unseen where it is as bright as the ground: both
+  // are believed if nothing else looks like it.
+  const bool sole = agrees && e.lead > 500.0;
+  const bool bent = e.bend > (sole ? 300.0 : 40.0);
+  const double least_contrast = !agrees ? 0.2 : !sole ? 0.05 : imitated ? -0.15 : -0.4;
   // A ring of diodes, and the dark in its middle.
   const bool ring = round && (e.least_contrast > 2.0 || e.free_share < 0.45);
   return e.fitted && e.number != kDecoy && e.misfit < 4.0 && e.lead > least_lead &&

@@ -63,67 +63,113 @@ class LightAlongRow {
   double value_, factor_, change_;
 };
 
+// Sums over the pixels of one row that lie wholly in the marker or wholly outside, which know of
+// nothing but the light. y is the same for all, so that powers of x are summed.
+class RowSums {
+ public:
+  void AddOutside(double x, double residual) {
+    outside_ += Vec3d(1.0, x, x * x);
+    outside_right_ += residual * Vec2d(1.0, x);
+  }
+  void AddInside(double x, double marker_light, double residual) {
+    double power = marker_light * marker_light;
+    for (double& sum : inside_) {
+      sum += power;
+      power *= x;
+    }
+    inside_right_ += residual * marker_light * Vec3d(1.0, x, x * x);
+  }
+  void AddTo(double y, Equations& sums) const {
+    auto surroundings = sums.normal.block<kSurroundings, kSurroundings>(kLight, kLight);
+    auto marker =
+        sums.normal.block<kMarker, kMarker>(kLight + kSurroundings, kLight + kSurroundings);
+    AddTerms<kSurroundings>(outside_.data(), outside_right_.data(), y, surroundings,
+                            sums.right.segment<kSurroundings>(kLight));
+    AddTerms<kMarker>(inside_.data(), inside_right_.data(), y, marker,
+                      sums.right.segment<kMarker>(kLight + kSurroundings));
+  }
+
+ private:
+  // Terms x^px y^py, in the order of OutlineMap::TermsAt; `moments[k]` goes with x^k.
+  template <int Terms, typename Matrix, typename Vector>
+  static void AddTerms(const double* moments, const double* right, double y, Matrix&& normal,
+                       Vector&& rights) {
+    constexpr int kPowerOfX[] = {0, 1, 0, 2, 1, 0}, kPowerOfY[] = {0, 0, 1, 0, 1, 2};
+    const double powers[] = {1.0, y, y * y, y * y * y, y * y * y * y};
+    for (int i = 0; i < Terms; ++i) {
+      rights(i) += powers[kPowerOfY[i]] * right[kPowerOfX[i]];
+      for (int j = 0; j < Terms; ++j) {
+        normal(i, j) += powers[kPowerOfY[i] + kPowerOfY[j]] * moments[kPowerOfX[i] + kPowerOfX[j]];
+      }
+    }
+  }
+
+  Vec3d outside_ = Vec3d::Zero();
+  Vec2d outside_right_ = Vec2d::Zero();
+  std::array<double, 5> inside_{};
+  Vec3d inside_right_ = Vec3d::Zero();
+};
+
+// What an edge pixel says of all unknowns, and its residual.
+void FillRow(const Coverage& coverage, int x, int y, const Vec2d& p, double m, double b,
+             double residual, float* row) {
+  const float* c = coverage.At(x, y);
+  const auto contrast = static_cast<float>(m - b);
+  const Vec2d seen = coverage.PlaceAt(x, y);
+  const auto u = static_cast<float>(seen.x());
+  const auto v = static_cast<float>(seen.y());
+  const float terms[] = {1.0f, u, v, u * u, u * v, v * v};
+  for (int k = 0; k < OutlineMap::kTerms; ++k) {
+    row[k] = contrast * c[1] * terms[k];
+    row[OutlineMap::kTerms + k] = contrast * c[2] * terms[k];
+  }
+  row[kVariance] = contrast * coverage.ByVariance(x, y);
+  const auto px = static_cast<float>(p.x());
+  const auto py = static_cast<float>(p.y());
+  const float free = 1.0f - c[0];
+  const auto lit = static_cast<float>(static_cast<double>(c[0]) * m);
+  const float light[] = {free,     free * px,     free * py,     lit,          lit * px,
+                         lit * py, lit * px * px, lit * px * py, lit * py * py};
+  std::copy(std::begin(light), std::end(light), row + kLight);
+  row[kResidual] = static_cast<float>(residual);
+  row[kResidual + 1] = 0.0f;
+}
+
 // Edge pixels know everything, others only the light: their sums are made apart.
 Equations Assemble(const Patch& patch, const MarkerFit& fit, const Coverage& coverage) {
   thread_local Rows rows;
   rows.resize(patch.count, kRow);
   Eigen::Index edges = 0;
   Equations sums;
-  Eigen::Matrix<double, kSurroundings, kSurroundings> outer;
-  Eigen::Matrix<double, kMarker, kMarker> inner;
-  outer.setZero();
-  inner.setZero();
   for (int y = 0; y < patch.dn.height; ++y) {
     LightAlongRow marker_light(fit.light, patch, y);
+    RowSums row;
     for (int x = 0; x < patch.dn.width; ++x, marker_light.Next()) {
       if (patch.used(x, y) == 0) continue;
-      const float* c = coverage.At(x, y);
+      const float covered = coverage.At(x, y)[0];
       const Vec2d p = PlaceInPatch(patch, Vec2d(x, y));
       const double b = SurroundingsAt(fit.light, p);
-      const bool outside = c[0] < kPure;
+      const bool outside = covered < kPure;
       const double m = outside ? b : marker_light.Value();
-      const auto covered = static_cast<double>(c[0]);
-      const double residual = static_cast<double>(patch.dn(x, y)) - b - covered * (m - b);
+      const double residual =
+          static_cast<double>(patch.dn(x, y)) - b - static_cast<double>(covered) * (m - b);
       if (residual < 0.0 && patch.dn(x, y) >= patch.white_dn) continue;  // as bright as can be
       sums.squares += residual * residual;
       if (outside) {
-        const Vec3d row(1.0, p.x(), p.y());
-        outer += row * row.transpose();
-        sums.right.segment<kSurroundings>(kLight) += residual * row;
-      } else if (c[0] > 1.0f - kPure) {
-        const auto row = (m * OutlineMap::TermsAt(p)).eval();
-        inner += row * row.transpose();
-        sums.right.segment<kMarker>(kLight + kSurroundings) += residual * row;
+        row.AddOutside(p.x(), residual);
+      } else if (covered > 1.0f - kPure) {
+        row.AddInside(p.x(), m, residual);
       } else {
-        float* row = rows.row(edges++).data();
-        const auto contrast = static_cast<float>(m - b);
-        const Vec2d seen = coverage.PlaceAt(x, y);
-        const auto u = static_cast<float>(seen.x());
-        const auto v = static_cast<float>(seen.y());
-        const float terms[] = {1.0f, u, v, u * u, u * v, v * v};
-        for (int k = 0; k < OutlineMap::kTerms; ++k) {
-          row[k] = contrast * c[1] * terms[k];
-          row[OutlineMap::kTerms + k] = contrast * c[2] * terms[k];
-        }
-        row[kVariance] = contrast * coverage.ByVariance(x, y);
-        const auto px = static_cast<float>(p.x());
-        const auto py = static_cast<float>(p.y());
-        const float free = 1.0f - c[0];
-        const auto lit = static_cast<float>(covered * m);
-        const float light[] = {free,     free * px,     free * py,     lit,          lit * px,
-                               lit * py, lit * px * px, lit * px * py, lit * py * py};
-        std::copy(std::begin(light), std::end(light), row + kLight);
-        row[kResidual] = static_cast<float>(residual);
-        row[kResidual + 1] = 0.0f;
+        FillRow(coverage, x, y, p, m, b, residual, rows.row(edges++).data());
       }
     }
+    row.AddTo(PlaceInPatch(patch, Vec2d(0, y)).y(), sums);
   }
-  Eigen::Matrix<float, kRow, kRow> products;
-  products.noalias() = rows.topRows(edges).transpose() * rows.topRows(edges);
-  sums.normal = products.topLeftCorner<kUnknowns, kUnknowns>().cast<double>();
+  Eigen::Matrix<float, kRow, kRow> products = Eigen::Matrix<float, kRow, kRow>::Zero();
+  products.selfadjointView<Eigen::Lower>().rankUpdate(rows.topRows(edges).transpose());
+  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+  sums.normal += products.topLeftCorner<kUnknowns, kUnknowns>().cast<double>();
   sums.right += products.block<kUnknowns, 1>(0, kResidual).cast<double>();
-  sums.normal.block<kSurroundings, kSurroundings>(kLight, kLight) += outer;
-  sums.normal.block<kMarker, kMarker>(kLight + kSurroundings, kLight + kSurroundings) += inner;
   return sums;
 }
 
