@@ -47,6 +47,12 @@ double MeanOver(const std::vector<size_t>& pixels, const FloatPlane& plane) {
   return pixels.empty() ? 0.0 : sum / static_cast<double>(pixels.size());
 }
 
+double PowerOf(const HotspotLight& light, size_t group, const HotspotMix& mix) {
+  if (group == light.own) return mix.own;
+  if (!light.IsRing(group)) return 1.0;
+  return mix.only.empty() || mix.only == light.groups[group] ? mix.neighbours : 0.0;
+}
+
 // Value at the centre and slope (per px) of the plane that fits best.
 struct Ground {
   double level = 0.0, slope = 0.0;
@@ -92,7 +98,7 @@ const char* ReferenceOf(const HotspotMix& mix) {
 FloatPlane Mixed(const HotspotLight& light, const HotspotMix& mix) {
   FloatPlane signal(light.edges.width, light.edges.height);
   for (size_t g = 0; g < light.groups.size(); ++g) {
-    const double power = g == light.own ? mix.own : light.IsRing(g) ? mix.neighbours : 1.0;
+    const double power = PowerOf(light, g, mix);
     if (power == 0.0) continue;
     for (size_t i = 0; i < signal.data.size(); ++i) {
       const float glint = mix.polarised ? light.glints[g].data[i] : 0.0f;

@@ -16,6 +16,7 @@ struct HotspotMix {
   // An ideal polariser: all mirror-like reflection is gone, nothing else changes. Real crossed
   // polarisers leave some of it, halve the rest, and dim sheeting whose beads keep polarisation.
   bool polarised = false;
+  std::string only = "";  // of the neighbours this one's ring alone is on; "": all of them
 };
 
 // own, both, neighbour; own and both with the polariser; then both at the other powers.

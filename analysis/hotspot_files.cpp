@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "analysis/hotspot_placement_files.h"
 #include "analysis/hotspot_study.h"
 #include "core/atomic_file.h"
 #include "core/csv.h"
@@ -219,26 +220,32 @@ json HotspotSummary(const HotspotStudy& study) {
     }
   }
   const HotspotStudyOptions& options = study.options;
-  return {{"schema", "retrolux/hotspot-study-1"},
-          {"version", RETROLUX_VERSION},
-          {"units", "e-, px, mm, deg"},
-          {"pixel_origin", "center"},
-          {"seed", options.shot.seed},
-          {"noise_seed", options.shot.noise_seed},
-          {"spp", options.shot.samples.mask},
-          {"exposures", options.shot.exposures},
-          {"placements", options.placements},
-          {"setup", options.setup.ToJson()},
-          {"angles_deg", options.angles_deg},
-          {"thesis_limit_deg", kThesisLimit_deg},
-          {"limits", limits}};
+  json summary = {{"schema", "retrolux/hotspot-study-1"},
+                  {"version", RETROLUX_VERSION},
+                  {"units", "e-, px, mm, deg"},
+                  {"pixel_origin", "center"},
+                  {"seed", options.shot.seed},
+                  {"noise_seed", options.shot.noise_seed},
+                  {"spp", options.shot.samples.mask},
+                  {"exposures", options.shot.exposures},
+                  {"placements", options.placements},
+                  {"setup", options.setup.ToJson()},
+                  {"angles_deg", options.angles_deg},
+                  {"thesis_limit_deg", kThesisLimit_deg},
+                  {"limits", limits}};
+  if (study.placement) summary["placement"] = PlacementSummary(*study.placement);
+  return summary;
 }
 
 void WriteHotspotStudyFiles(const HotspotStudy& study, const std::filesystem::path& folder) {
-  WriteSeries(study.series, folder);
-  WriteRings(study, folder / "rings.csv");
+  const bool angles = !study.series.front().rows.empty();
+  if (angles) {
+    WriteSeries(study.series, folder);
+    WriteVerdict(study, folder / "verdict.csv");
+  }
+  if (angles || !study.room.empty()) WriteRings(study, folder / "rings.csv");
   if (!study.room.empty()) WriteRoom(study.room, folder / "room.csv");
-  WriteVerdict(study, folder / "verdict.csv");
+  if (study.placement) WritePlacementFiles(*study.placement, folder);
   WriteTextFile(folder / "summary.json", HotspotSummary(study).dump(2) + "\n");
 }
 

@@ -73,12 +73,13 @@ Plane<int> SampleCounts(const IdBuffers& ids, const Plane<uint8_t>& edges, size_
 
 // All light groups of a scene of which `rays` has the geometry.
 Film Trace(const Scene& scene, const RayScene& rays, const CameraSpec& camera, double exposure_s,
-           const Plane<int>& samples, uint64_t seed) {
+           const Plane<int>& samples, int surfaces, uint64_t seed) {
   const std::vector<PlacedMarker> placed = PlaceMarkers(scene);
   const Lights lights(scene, rays, RingChoice::kAll, camera.model.name);
   const CameraResponse response(camera, lights.Spectra(), exposure_s);
   TraceOptions options;
   options.seed = seed;
+  options.max_surfaces = surfaces;
   const PathTracer tracer(scene, rays, lights, response, placed, options);
   Film film = RenderFilm(tracer, camera.model, samples, lights.GroupNames(), NoProgress());
   LensScatter(camera, response.MeanWavelength_nm()).Apply(film);
@@ -103,7 +104,7 @@ HotspotLight TraceHotspots(const Scene& scene, const RayScene& rays, const Camer
   light.edges = EdgePixels(light.ids, camera.model);
   const Plane<int> counts = SampleCounts(light.ids, light.edges, mask, samples);
   const auto trace = [&](const Scene& variant) {
-    return Trace(variant, rays, camera, light.exposure_s, counts, seed);
+    return Trace(variant, rays, camera, light.exposure_s, counts, samples.surfaces, seed);
   };
   Film all = trace(scene);
   light.groups = all.group_names;
@@ -123,7 +124,8 @@ std::vector<FloatPlane> TraceBareGlints(const Scene& scene, const RayScene& rays
   bare.markers.clear();
   const IdBuffers ids = RenderIds(rays, camera.model, {});
   const Plane<int> counts = SampleCounts(ids, EdgePixels(ids, camera.model), mask, samples);
-  return Trace(bare, rays, camera, ExposureSeconds(scene, camera), counts, seed).group_electrons;
+  const double exposure_s = ExposureSeconds(scene, camera);
+  return Trace(bare, rays, camera, exposure_s, counts, samples.surfaces, seed).group_electrons;
 }
 
 }  // namespace retrolux

@@ -18,12 +18,13 @@
 
 namespace retrolux {
 
-// Paths a pixel, by what it shows.
+// Paths a pixel, by what it shows, and how far they go.
 struct HotspotSamples {
   int mask = 4;
   int marker = 16;
   int edge = 32;  // where anything begins or ends (renderer/edge_pixels.h)
   int rest = 1;
+  int surfaces = 6;  // that scatter, of a path; 1: the first reflection alone, no indirect light
 };
 
 struct HotspotLight {

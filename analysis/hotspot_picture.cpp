@@ -5,6 +5,9 @@
 
 #include "analysis/mask_picture.h"
 #include "analysis/picture_canvas.h"
+#include "core/atomic_file.h"
+#include "core/hash.h"
+#include "renderer/render_files.h"
 #include "renderer/sensor.h"
 
 namespace retrolux {
@@ -63,9 +66,8 @@ std::string RecordedPng(const HotspotStage& stage, const HotspotMix& mix, uint64
   return PictureCanvas(image, {w.x0, w.y0, w.x1 - w.x0 + 1, w.y1 - w.y0 + 1, 1.0, white}).Png();
 }
 
-std::string NeighboursPng(const HotspotStage& stage) {
-  const FloatPlane both = Mixed(stage.light, {"", 1.0, 1.0}),
-                   own = Mixed(stage.light, {"", 1.0, 0.0});
+std::string NeighboursPng(const HotspotStage& stage, const HotspotMix& mix) {
+  const FloatPlane both = Mixed(stage.light, mix), own = Mixed(stage.light, {"", 1.0, 0.0});
   const std::vector<OvalCategory> scale = NeighboursScale();
   const Window w = WindowOf(stage);
   RgbPicture picture(w.x1 - w.x0 + 1, w.y1 - w.y0 + 1, {255, 255, 255});
@@ -87,6 +89,30 @@ std::vector<OvalCategory> NeighboursScale() {
                        : fmt::format("{:.3g}", StepBegin_e(step));
   }
   return scale;
+}
+
+nlohmann::json KeepHotspotPictures(const HotspotStage& stage, const HotspotMix& mix,
+                                   const std::string& name, uint64_t noise_seed,
+                                   const std::filesystem::path& folder) {
+  const uint64_t key = NoiseKey(noise_seed, name + "_1");
+  const std::pair<const char*, std::string> pictures[] = {
+      {"own", RecordedPng(stage, {"own", 1.0, 0.0}, key)},
+      {"both", RecordedPng(stage, mix, key)},
+      {"neighbours", NeighboursPng(stage, mix)}};
+  nlohmann::json kept = nlohmann::json::array();
+  for (const auto& [kind, png] : pictures) {
+    const std::string file = fmt::format("pictures/{}_{}.png", name, kind);
+    WriteTextFile(folder / file, png);
+    kept.push_back({{"kind", kind}, {"file", file}, {"hash", HexHash(HashBytes(png))}});
+  }
+  return kept;
+}
+
+std::vector<HotspotPicture> KeptHotspotPictures(const nlohmann::json& result) {
+  std::vector<HotspotPicture> pictures;
+  for (const nlohmann::json& kept : result.at("kept"))
+    pictures.push_back({kept.at("kind").get<std::string>(), kept.at("file").get<std::string>()});
+  return pictures;
 }
 
 }  // namespace retrolux

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "analysis/hotspot_picture.h"
+#include "analysis/hotspot_placement_report.h"
 #include "analysis/hotspot_report_plots.h"
 #include "analysis/hotspot_report_tables.h"
 #include "core/atomic_file.h"
@@ -12,35 +13,43 @@ namespace {
 // Angles of the strip of pictures.
 constexpr double kStrip_deg[] = {2, 5, 10, 15, 20, 30, 40};
 
+std::string SubtitleOf(const HotspotStudy& study) {
+  const HotspotSetup& setup = study.series.front().setup;
+  const std::string what =
+      study.series.front().rows.empty()
+          ? "Ring-lit cameras as they stand"
+          : fmt::format("Ring-lit cameras at {:g} mm over the angle between them; {} mask",
+                        setup.distance_mm, setup.mask);
+  return fmt::format("{}; coat of roughness {:g}, {}; retrolux {}", what, setup.roughness,
+                     setup.sheeting, RETROLUX_VERSION);
+}
+
 class HotspotReport {
  public:
   HotspotReport(const HotspotStudy& study, const std::filesystem::path& folder)
       : study_(study),
         folder_(folder),
         series_(study.series.front()),
-        report_(
-            "What do neighbouring rings do to a picture?",
-            fmt::format("Ring-lit cameras at {:g} mm over the angle between them; {} mask, coat "
-                        "of roughness {:g}, {}; retrolux {}",
-                        series_.setup.distance_mm, series_.setup.mask, series_.setup.roughness,
-                        series_.setup.sheeting, RETROLUX_VERSION)) {}
+        report_("What do neighbouring rings do to a picture?", SubtitleOf(study)) {}
 
   Report Compose(const std::string& command_line) {
-    Summary();
-    AddHotspotVerdict(study_, report_);
+    if (study_.placement) AddHotspotPlacement(*study_.placement, folder_, report_);
+    if (!series_.rows.empty()) {
+      Summary();
+      AddHotspotVerdict(study_, report_);
+    }
     if (!study_.room.empty()) Room();
-    Strip();
-    AddHotspotPlots(series_, report_);
+    if (!series_.rows.empty()) {
+      Strip();
+      AddHotspotPlots(series_, report_);
+    }
     report_.HowMade(command_line);
     report_.Paragraph(fmt::format(
-        "Seed {}, noise seed {}. {} placements of the mask at each angle, {} exposures of each mix "
-        "of rings with the default sensor's noise; one render keeps the rings apart, all mixes "
-        "follow from it. The paths' scatter on the mask is at most {:.0f} % of the sensor's noise "
-        "of one picture. Bars: standard error over placements; 95 % (Wilson) of rates. All figures "
-        "are in hotspot.csv, variations.csv, rings.csv, room.csv and verdict.csv; "
-        "docs/hotspots.md says what they mean.",
-        study_.options.shot.seed, study_.options.shot.noise_seed, study_.options.placements,
-        study_.options.shot.exposures, 100.0 * RenderNoise()));
+        "Seed {}, noise seed {}. {} exposures of each mix of rings with the default sensor's "
+        "noise; one render keeps the rings apart, all mixes follow from it. docs/hotspots.md says "
+        "what the figures mean.",
+        study_.options.shot.seed, study_.options.shot.noise_seed, study_.options.shot.exposures));
+    if (!series_.rows.empty()) Angles();
     return std::move(report_);
   }
 
@@ -49,6 +58,15 @@ class HotspotReport {
     double largest = 0.0;
     for (const HotspotRow& row : series_.rows) largest = std::max(largest, row.RenderNoise());
     return largest;
+  }
+
+  void Angles() {
+    report_.Paragraph(fmt::format(
+        "{} placements of the mask at each angle. The paths' scatter on the mask is at most {:.0f} "
+        "% of the sensor's noise of one picture. Bars: standard error over placements; 95 % "
+        "(Wilson) of rates. All figures are in hotspot.csv, variations.csv, rings.csv, room.csv "
+        "and verdict.csv.",
+        study_.options.placements, 100.0 * RenderNoise()));
   }
 
   void Summary() {
@@ -88,7 +106,7 @@ class HotspotReport {
         "What each camera records in the light of its own ring and of all rings (dark levels "
         "raised, gamma 2.2), and the light of all other rings in false colours (e-)",
         grid, 3, NeighboursScale());
-    AddHotspotRoomTables(study_, report_);
+    AddHotspotRoomTables(study_.room, study_.Mix("both"), report_);
   }
 
   void Strip() {

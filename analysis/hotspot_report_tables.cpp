@@ -119,9 +119,10 @@ void AddHotspotVerdict(const HotspotStudy& study, Report& report) {
   AddVariations(study, report);
 }
 
-void AddHotspotRoomTables(const HotspotStudy& study, Report& report) {
+void AddHotspotRoomTables(const std::vector<HotspotRoomView>& room, const HotspotMix& all,
+                          Report& report) {
   std::vector<std::vector<std::string>> rows;
-  for (const HotspotRoomView& view : study.room) {
+  for (const HotspotRoomView& view : room) {
     for (const RingLight& ring : view.row.rings) {
       rows.push_back({view.camera, ring.name, fmt::format("{:.2f}", ring.separation_deg),
                       fmt::format("{:.0f}", ring.highlight.peak_e),
@@ -138,8 +139,8 @@ void AddHotspotRoomTables(const HotspotStudy& study, Report& report) {
        "sheeting's body", "its cover", "direct view (px)"},
       rows);
   rows.clear();
-  for (const HotspotRoomView& view : study.room) {
-    const HotspotMixRow &own = view.row.Mix("own"), &both = view.row.Mix("both");
+  for (const HotspotRoomView& view : room) {
+    const HotspotMixRow &own = view.row.Mix("own"), &both = view.row.Mix(all.name);
     const auto hits = [](const HotspotMixRow& row, const char* method) {
       const Proportion& p = row.methods.at(method).hits;
       return fmt::format("{} of {}", p.count, p.of);
@@ -148,7 +149,7 @@ void AddHotspotRoomTables(const HotspotStudy& study, Report& report) {
         {view.camera, fmt::format("{:.0f}", own.mean.background_e),
          fmt::format("{:.0f}", both.mean.background_e), fmt::format("{:.1f}", own.mean.contrast),
          fmt::format("{:.1f}", both.mean.contrast), hits(own, "edges"), hits(both, "edges"),
-         hits(own, "robust"), hits(both, "robust"), ChangedBy(view.row, study.Mix("both"))});
+         hits(own, "robust"), hits(both, "robust"), ChangedBy(view.row, all)});
   }
   report.Table(
       "Own ring alone against all rings; what they change by more than three times the "

@@ -7,6 +7,8 @@
 namespace retrolux {
 
 void AddHotspotVerdict(const HotspotStudy& study, Report& report);
-void AddHotspotRoomTables(const HotspotStudy& study, Report& report);
+// `all`: the mix of all rings that the views have.
+void AddHotspotRoomTables(const std::vector<HotspotRoomView>& room, const HotspotMix& all,
+                          Report& report);
 
 }  // namespace retrolux

@@ -95,6 +95,14 @@ Scene HotspotScene(const HotspotSetup& setup, double psi_deg, int placement, uin
   return scene;
 }
 
+void FurnishRoom(const HotspotSetup& setup, Scene& scene) {
+  SetCoatRoughness(scene, scene.Object("mask").material, setup.roughness);
+  scene.UseMaterial(setup.sheeting);
+  for (MarkerSpec& marker : scene.markers) marker.material = setup.sheeting;
+  for (CameraSpec& camera : scene.cameras) SetUp(setup, false, camera);
+  scene.exposure.time_s = setup.exposure * ExposureSeconds(scene, scene.cameras.front());
+}
+
 void SetCoatRoughness(Scene& scene, const std::string& material, double roughness) {
   nlohmann::json spec = scene.materials.at(material).spec;
   if (spec.at("type") != "coated_diffuse") {

@@ -36,6 +36,11 @@ struct HotspotSetup {
 // degrees about each axis, by `placement` and seed (StereoScene).
 Scene HotspotScene(const HotspotSetup& setup, double psi_deg, int placement, uint64_t seed);
 
+// Gives the mask of a room its coat, its markers their sheeting, and every camera its ring, lens
+// and sensor, as the setup says, and the room the exposure. What is said of neighbours and of
+// number and distance of the cameras is not for rooms. InputError if there is no object "mask".
+void FurnishRoom(const HotspotSetup& setup, Scene& scene);
+
 // A change of the setup that the study tries. To add one: a row in the table of hotspot_setup.cpp.
 struct HotspotVariation {
   const char* name;

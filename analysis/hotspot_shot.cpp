@@ -180,8 +180,8 @@ HotspotStage::HotspotStage(Scene of, size_t camera_index, const HotspotSamples& 
       bare_glints(TraceBareGlints(scene, rays, camera, mask, samples, seed)),
       markers(HotspotMarkers(scene, rays, camera.model, light)) {}
 
-HotspotShot ShootHotspots(const HotspotStage& stage, const HotspotShotOptions& options,
-                          const std::string& picture) {
+HotspotShot ShootHotspots(const HotspotStage& stage, const std::vector<HotspotMix>& mixes,
+                          const HotspotShotOptions& options, const std::string& picture) {
   HotspotShot shot;
   for (const HotspotMarker& marker : stage.markers) {
     if (marker.number > 0) shot.markers.push_back(marker.number);
@@ -189,7 +189,6 @@ HotspotShot ShootHotspots(const HotspotStage& stage, const HotspotShotOptions& o
   shot.rings = RingsOf(stage.scene, stage.rays, stage.camera, stage.mask, stage.light,
                        stage.bare_glints, stage.markers);
   shot.render_noise = RenderNoise(stage);
-  const std::vector<HotspotMix> mixes = HotspotMixes(options.powers);
   const size_t pictures = static_cast<size_t>(options.exposures) + 1;
   const Sensor sensor(stage.camera);
   const CalmSensor calm(stage.camera);

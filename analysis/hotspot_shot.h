@@ -75,9 +75,9 @@ struct HotspotShot {
   double render_noise = 0.0;
 };
 
-// `picture` names the noise.
-HotspotShot ShootHotspots(const HotspotStage& stage, const HotspotShotOptions& options,
-                          const std::string& picture);
+// `mixes` hold the reference of each of them (ReferenceOf). `picture` names the noise.
+HotspotShot ShootHotspots(const HotspotStage& stage, const std::vector<HotspotMix>& mixes,
+                          const HotspotShotOptions& options, const std::string& picture);
 
 // Of the highlights that `stage`'s camera and `other` see in each other's and in their own light.
 HighlightDepths DepthsOfHighlights(const HotspotStage& stage, const CameraSpec& other,

@@ -50,23 +50,6 @@ Json InputsOf(const HotspotStudyOptions& options) {
           {"powers", options.shot.powers}};
 }
 
-// Writes the pictures of a stage below `folder` and tells their files and hashes.
-Json KeepPictures(const HotspotStage& stage, const HotspotStudyOptions& options,
-                  const std::string& name, const fs::path& folder) {
-  const uint64_t key = NoiseKey(options.shot.noise_seed, name + "_1");
-  const std::pair<const char*, std::string> pictures[] = {
-      {"own", RecordedPng(stage, {"own", 1.0, 0.0}, key)},
-      {"both", RecordedPng(stage, {"both", 1.0, 1.0}, key)},
-      {"neighbours", NeighboursPng(stage)}};
-  Json kept = Json::array();
-  for (const auto& [kind, png] : pictures) {
-    const std::string file = fmt::format("pictures/{}_{}.png", name, kind);
-    WriteTextFile(folder / file, png);
-    kept.push_back({{"kind", kind}, {"file", file}, {"hash", HexHash(HashBytes(png))}});
-  }
-  return kept;
-}
-
 // Indirect light makes a room noisier than a mask alone.
 HotspotSamples RoomSamples(HotspotSamples samples) {
   samples.mask *= 16;
@@ -84,18 +67,13 @@ Json RunTask(const ShotSpec& spec, const HotspotStudyOptions& options, const fs:
       room ? *options.room
            : HotspotScene(spec.series->setup, spec.psi_deg, spec.placement, options.shot.seed),
       spec.camera, samples, seed);
-  HotspotShot shot = ShootHotspots(stage, options.shot, name);
+  HotspotShot shot = ShootHotspots(stage, HotspotMixes(options.shot.powers), options.shot, name);
   if (!room) shot.depths = DepthsOfHighlights(stage, stage.scene.cameras[1], samples, seed);
   const bool keep = room || spec.placement == 0;
   return {{"shot", shot},
-          {"kept", keep ? KeepPictures(stage, options, name, folder) : Json::array()}};
-}
-
-std::vector<HotspotPicture> PicturesOf(const Json& result) {
-  std::vector<HotspotPicture> pictures;
-  for (const Json& kept : result.at("kept"))
-    pictures.push_back({kept.at("kind").get<std::string>(), kept.at("file").get<std::string>()});
-  return pictures;
+          {"kept", keep ? KeepHotspotPictures(stage, {"both", 1.0, 1.0}, name,
+                                              options.shot.noise_seed, folder)
+                        : Json::array()}};
 }
 
 std::vector<HotspotSeries> SeriesOf(const HotspotStudyOptions& options) {
@@ -178,16 +156,20 @@ HotspotStudy RunHotspotStudy(const HotspotStudyOptions& chosen, const fs::path& 
   const std::vector<Json> results = manifest.Run(
       "pictures", tasks, [&](size_t task) { return RunTask(specs[task], options, folder); },
       progress, loop);
+  if (options.placement) {
+    study.placement = RunHotspotPlacement(*options.placement, options.setup, options.shot, manifest,
+                                          folder, progress);
+  }
   study.tasks = manifest.Report();
   size_t next = 0;
   for (; next < specs.size() && !specs[next].series; ++next) {
     study.room.push_back({options.room->cameras[specs[next].camera].model.name,
                           RowOf(0.0, {results[next].at("shot").get<HotspotShot>()}, study.mixes),
-                          PicturesOf(results[next])});
+                          KeptHotspotPictures(results[next])});
   }
   for (HotspotSeries& series : study.series) {
     for (const double psi_deg : AnglesOf(series, options)) {
-      series.pictures.push_back(PicturesOf(results[next]));
+      series.pictures.push_back(KeptHotspotPictures(results[next]));
       std::vector<HotspotShot> shots;
       for (int placement = 0; placement < options.placements; ++placement)
         shots.push_back(results[next++].at("shot").get<HotspotShot>());

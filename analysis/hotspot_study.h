@@ -1,12 +1,10 @@
 // What do the rings of neighbouring cameras do to a camera's picture, over the angle between them,
-// and in a room as it stands? docs/hotspots.md gives the answers.
+// in a room as it stands, and in a placement of the vault? docs/hotspots.md gives the answers.
 #pragma once
 
 #include <filesystem>
 
-#include "analysis/hotspot_setup.h"
-#include "analysis/hotspot_verdict.h"
-#include "core/task_manifest.h"
+#include "analysis/hotspot_placement.h"
 
 namespace retrolux {
 
@@ -20,11 +18,7 @@ struct HotspotStudyOptions {
   // A room with an object "mask" and cameras with rings; if it has no markers, six are put on the
   // oval of the CT room. Nothing: no room.
   std::optional<Scene> room;
-};
-
-struct HotspotPicture {
-  std::string kind;  // "own", "both", "neighbours"
-  std::string file;  // relative to the study's folder
+  std::optional<HotspotPlacementOptions> placement;  // of the vault; nothing: none
 };
 
 // The setup, or a variation of it, over the angle.
@@ -35,18 +29,12 @@ struct HotspotSeries {
   std::vector<std::vector<HotspotPicture>> pictures;  // by row, of the first placement
 };
 
-// A camera of the room; "neighbours" are all its other rings.
-struct HotspotRoomView {
-  std::string camera;
-  HotspotRow row;
-  std::vector<HotspotPicture> pictures;
-};
-
 struct HotspotStudy {
   HotspotStudyOptions options;
   std::vector<HotspotMix> mixes;
   std::vector<HotspotSeries> series;  // the first: without variation
   std::vector<HotspotRoomView> room;
+  std::optional<HotspotPlacement> placement;
   TaskReport tasks;
 
   const HotspotMix& Mix(const std::string& name) const;
@@ -57,8 +45,9 @@ struct HotspotStudy {
 HotspotStudy RunHotspotStudy(const HotspotStudyOptions& options,
                              const std::filesystem::path& folder, Progress& progress);
 
-// hotspot.csv, variations.csv, rings.csv, room.csv, verdict.csv, summary.json
-// (docs/file-formats.md).
+// hotspot.csv, variations.csv, rings.csv, room.csv, verdict.csv, placement.csv,
+// placement_pairs.csv, summary.json (docs/file-formats.md); of tables those that there are rows
+// for.
 nlohmann::json HotspotSummary(const HotspotStudy& study);
 void WriteHotspotStudyFiles(const HotspotStudy& study, const std::filesystem::path& folder);
 void WriteHotspotStudyReport(const HotspotStudy& study, const std::filesystem::path& folder,

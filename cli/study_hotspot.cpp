@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "analysis/hotspot_placement_verdict.h"
 #include "analysis/hotspot_study.h"
 #include "cli/run_json.h"
 #include "cli/study.h"
@@ -19,6 +20,11 @@ struct StudyHotspotCommand {
   std::filesystem::path out;
   std::string angles = "2:40:1";
   std::string scene = "ct-room";
+  std::string placement;
+  std::string scenario;
+  int rotations = 8;
+  bool indirect = false;
+  bool angles_given = false;  // on the command line
   std::vector<std::string> variations = {kAll};
   int spp = 4;
   bool quick = false;
@@ -60,11 +66,23 @@ void MakeQuick(StudyHotspotCommand& command) {
   command.study.shot.exposures = 4;
   command.study.shot.powers = {};
   command.spp = 2;
+  command.rotations = 2;
+}
+
+// Without the marks of bold type and of code.
+std::string Plain(std::string text) {
+  std::erase_if(text, [](char c) { return c == '*' || c == '`'; });
+  return text;
 }
 
 std::string Text(const HotspotStudy& study) {
+  std::string text;
+  if (study.placement) {
+    for (const std::string& sentence : VerdictOf(*study.placement)) text += Plain(sentence) + "\n";
+  }
   const HotspotSeries& series = study.series.front();
-  std::string text = "from which separation on does the neighbour change nothing?\n";
+  if (series.rows.empty()) return text;
+  text += "from which separation on does the neighbour change nothing?\n";
   for (const HotspotLimit& limit : LimitsOf(series.rows, study.Mix("both"))) {
     text += fmt::format("  {:<26} {:<18} ({})\n", limit.criterion->name,
                         LimitText(limit, series.rows), limit.criterion->meaning);
@@ -75,11 +93,19 @@ std::string Text(const HotspotStudy& study) {
 int RunStudyHotspot(StudyHotspotCommand command, const GlobalOptions& global) {
   if (command.quick) MakeQuick(command);
   HotspotStudyOptions& options = command.study;
-  options.angles_deg = ParseAngles(command.angles);
+  // A placement is a question of its own.
+  if (command.placement.empty() || command.angles_given)
+    options.angles_deg = ParseAngles(command.angles);
   options.shot.seed = global.seed;
   options.shot.noise_seed = global.NoiseSeed();
   SetSamples(command.spp, options.shot.samples);
-  if (command.scene != kNone) options.room = LoadScene(command.scene);
+  if (!command.placement.empty()) {
+    options.placement = {ReadHotspotVault(command.placement, command.scenario), command.rotations,
+                         command.indirect};
+  } else if (command.scene != kNone) {
+    options.room = LoadScene(command.scene);
+  }
+  if (options.angles_deg.empty()) command.variations = {kNone};
   if (command.variations == std::vector<std::string>{kAll}) {
     for (const HotspotVariation& variation : HotspotVariations())
       options.variations.emplace_back(variation.name);
@@ -119,10 +145,30 @@ void SetUpStudyHotspot(CLI::App& study, const GlobalOptions& global, Run& run) {
   sub->add_option("--out", command->out, "folder for the results")->required();
   sub->add_option("--angles", command->angles, "separations, degrees: FROM:TO:STEP or a list")
       ->capture_default_str();
-  sub->add_option("--scene", command->scene,
-                  "a room as it stands, with an object 'mask': what do all its rings do to each of "
-                  "its pictures? 'none': no room")
+  CLI::Option* scene =
+      sub->add_option("--scene", command->scene,
+                      "a room as it stands, with an object 'mask': what do all its rings do to "
+                      "each of its pictures? 'none': no room")
+          ->capture_default_str();
+  CLI::Option* placement =
+      sub->add_option("--placement", command->placement,
+                      "solution.json of study vault: which pairs of its cameras have hot spots, at "
+                      "which rotations of the mask? In place of the room, and without --angles of "
+                      "the angles")
+          ->excludes(scene);
+  sub->add_option("--scenario", command->scenario,
+                  "with --placement: a simulation or scenario file in place of the solution's own")
+      ->needs(placement);
+  sub->add_option("--rotations", command->rotations,
+                  "with --placement: how many rotations of the mask are rendered, the worst by "
+                  "their forecast; 162 are all of the face")
+      ->check(CLI::Range(1, 100000))
+      ->needs(placement)
       ->capture_default_str();
+  sub->add_flag("--indirect", command->indirect,
+                "with --placement: light that is reflected more than once, too, which wants 16 "
+                "times the --spp")
+      ->needs(placement);
   sub->add_option("--variations", command->variations,
                   "changes of the setup that are tried at fewer angles: names, all or none")
       ->delimiter(',')
@@ -163,8 +209,10 @@ void SetUpStudyHotspot(CLI::App& study, const GlobalOptions& global, Run& run) {
   sub->add_option("--cameras", setup.cameras, "in a row; the first looks")->capture_default_str();
   sub->add_option("--distance", setup.distance_mm, "of all cameras from the isocentre, mm")
       ->capture_default_str();
-  sub->add_flag("--quick", command->quick, "seven angles, few and noisier pictures");
-  sub->callback([command, &global, &run] {
+  sub->add_flag("--quick", command->quick,
+                "seven angles, two rotations of a placement, few and noisier pictures");
+  sub->callback([command, sub, &global, &run] {
+    command->angles_given = sub->count("--angles") > 0;
     run = [command, &global] { return RunStudyHotspot(*command, global); };
   });
 }

@@ -717,6 +717,24 @@ refuse "study hotspot: angles" "--angles: found '2:x:1'; expected FROM:TO:STEP" 
 refuse "study hotspot: unknown variation" "variation: found 'gold'; expected one of face" bad study hotspot --variations gold --out bad
 refuse "study hotspot: unknown mask" "mask: found 'hat'; expected oval or face" bad study hotspot --mask hat --out bad
 refuse "study hotspot: a room without a mask" "chessboard" bad study hotspot --scene chessboard --out bad
+cat >three.json <<'JSON'
+{"schema": "retrolux/scenario-1", "base": "1a", "name": "three", "cameras": {"count": 3, "width_px": 320, "height_px": 240},
+ "masks": {"face": {"x_deg": [0], "y_deg": [10], "z_deg": [40, 60]}}, "combinations": {"extra": []}}
+JSON
+echo '{"placement": {"phi_b_deg": 48, "theta1_deg": 31.67, "theta2_deg": 70.52}}' >placement.json
+hotspot="study hotspot --placement placement.json --scenario three.json --rotations 1 --exposures 2 --spp 1"
+# shellcheck disable=SC2086
+succeed "study hotspot of a placement" $hotspot --threads 1 --out hotv1
+# shellcheck disable=SC2086
+succeed "study hotspot of a placement on 2 threads" $hotspot --threads 2 --out hotv2
+same "study hotspot of a placement: the same on 2 threads" hotv1 hotv2 placement.csv placement_pairs.csv summary.json
+[ "$(wc -l <hotv1/placement.csv)" -eq 13 ] && good "placement.csv: 3 cameras x 2 rings x 2 rotations" ||
+  bad "placement.csv: 3 cameras x 2 rings x 2 rotations" "$(wc -l <hotv1/placement.csv) lines"
+holds "study hotspot of a placement: one rotation of two is rendered" hotv1/summary.json \
+  'json.placement.rotations === 2 && json.placement.rotations_rendered_deg.length === 1 && json.limits.length === 0'
+refuse "study hotspot: a placement without a simulation" "placement.json: .*no key 'simulation'; expected a built-in simulation" bad study hotspot --placement placement.json --out bad
+refuse "study hotspot: no placement" "three.json: .*'placement'" bad study hotspot --placement three.json --out bad
+refuse "study hotspot: placement or scene" "--scene excludes --placement" bad study hotspot --placement placement.json --scene ct-room --out bad
 
 # ------------------------------------------------------------------------------------------------------- study layout
 succeed "study layout" study layout --poses reference --spp 1 --threads 1 --out layout1

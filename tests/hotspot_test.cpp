@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/cross_highlight.h"
+#include "analysis/highlight_forecast.h"
 #include "analysis/hotspot_limit.h"
 #include "analysis/hotspot_setup.h"
 #include "analysis/hotspot_verdict.h"
@@ -151,6 +152,43 @@ TEST(Highlight, PeakIsThatOfTheCoat) {
   EXPECT_NEAR(seen.peak_e / expected, 1.0, 0.01);
 }
 
+// Without tracing light: the place of the half vector, and the peak of the coat there (the closed
+// form of the test before, but with the ring as a point). 1.5 mm: the forecast looks at every
+// second pixel of 0.5 mm, and its grid need not hold the middle; over that the highlight falls by
+// 0.1 %. The render's peak: 1 % of the ring's width, 1 % as above.
+TEST(HighlightForecast, IsWhereTheHalfVectorSaysAndAsBrightAsRendered) {
+  Scene scene = SphereScene(30.0, 0.2);
+  scene.markers.push_back({"standard", 0, "mask", Vec3d(60, 0, 80)});
+  const HotspotStage stage(scene, 0, kSamples, 5);
+  const std::vector<HighlightForecast> forecasts =
+      ForecastHighlights(stage.scene, stage.rays, stage.camera, stage.mask);
+  ASSERT_EQ(forecasts.size(), 2u);
+  for (size_t ring = 0; ring < 2; ++ring) {
+    const Vec3d expected =
+        SphereHighlight(Vec3d::Zero(), kRadius_mm, scene.cameras[0].model.Centre(),
+                        scene.cameras[ring].model.Centre());
+    const Highlight seen = HighlightOf(stage.bare_glints[ring], stage.light.ids, stage.mask);
+    EXPECT_LT((Vec3d(forecasts[ring].at_mm.data()) - expected).norm(), 1.5) << ring;
+    EXPECT_LT((Vec3d(forecasts[ring].at_mm.data()) - Vec3d(seen.at_mm.data())).norm(), 1.5) << ring;
+    EXPECT_NEAR(forecasts[ring].peak_e / seen.peak_e, 1.0, 0.02) << ring;
+  }
+}
+
+// A wall between the neighbour and the sphere: none of its light, all of the own.
+TEST(HighlightForecast, KnowsShadows) {
+  Scene scene = SphereScene(30.0, 0.2);
+  const Vec3d lamp = scene.cameras[1].model.Centre();
+  const Vec3d across = 300.0 * lamp.cross(Vec3d::UnitZ()).normalized();
+  AddObject(scene, "wall",
+            RectangleMesh(0.5 * lamp - 0.5 * across - Vec3d(0, 0, 150), across, {0, 0, 300}),
+            "black");
+  const RayScene rays(scene);
+  const std::vector<HighlightForecast> forecasts =
+      ForecastHighlights(scene, rays, scene.cameras[0], 0);
+  EXPECT_GT(forecasts[0].peak_e, 10.0);
+  EXPECT_EQ(forecasts[1].peak_e, 0.0);
+}
+
 // A marker that faces the bisector, lit by the neighbour: L = R_A(alpha) E_perp / cos(nu) (CIE),
 // with R_A of the sheeting's two lobes (docs/physics.md, section 4) at the angle alpha between each
 // diode and the camera, as seen from the marker; entrance angles stay below 5 degrees, where the
@@ -249,6 +287,20 @@ TEST(HotspotMix, RingsAddUp) {
     EXPECT_NEAR(more.data[i] - own.data[i], 4.0f * (both.data[i] - own.data[i]),
                 1e-5f * more.data[i]);
   }
+}
+
+// One of several neighbours by itself: they add up.
+TEST(HotspotMix, NeighboursOneByOne) {
+  HotspotLight light;
+  light.groups = {"left", "right", "neighbour-2", kAmbientGroup};
+  light.edges = Plane<uint8_t>(1, 1, 0);
+  for (const float e : {1.0f, 10.0f, 100.0f, 1000.0f}) {
+    light.all.emplace_back(1, 1);
+    light.all.back().data[0] = e;
+  }
+  EXPECT_EQ(Mixed(light, {"", 1.0, 1.0}).data[0], 1111.0f);
+  EXPECT_EQ(Mixed(light, {"", 1.0, 1.0, false, "right"}).data[0], 1011.0f);
+  EXPECT_EQ(Mixed(light, {"", 1.0, 2.0, false, "neighbour-2"}).data[0], 1201.0f);
 }
 
 TEST(HotspotSetup, SaysWhatIsWrong) {

@@ -267,6 +267,14 @@ function checkStereo(schemas, work) {
   const least = ['--exposures', '2', '--spp', '1'];
   const hot = run(work, 'study', 'hotspot', ...few, ...least, '--json', '--out', 'hotspot');
   if (hot !== null) checkText(schemas, 'standard output of study hotspot --json', hot);
+  const vault = { schema: 'retrolux/scenario-1', base: '1a', name: 'three', cameras: { count: 3 } };
+  vault.masks = { face: { x_deg: [0], y_deg: [10], z_deg: [40] } };
+  vault.combinations = { extra: [] };
+  fs.writeFileSync(path.join(work, 'three.json'), JSON.stringify(vault));
+  const placement = { phi_b_deg: 48, theta1_deg: 31.67, theta2_deg: 70.52 };
+  fs.writeFileSync(path.join(work, 'placed.json'), JSON.stringify({ placement }));
+  const placed = ['--placement', 'placed.json', '--scenario', 'three.json'];
+  run(work, 'study', 'hotspot', ...placed, ...least, '--out', 'hotspot-placed');
 }
 
 /** Six markers on the oval, in one pose. */
