@@ -14,6 +14,7 @@
 #include "classifier/detections_json.h"
 #include "classifier/method.h"
 #include "classifier/proposals.h"
+#include "classifier/size_consensus.h"
 #include "core/error.h"
 #include "core/image_file.h"
 #include "core/parallel.h"
@@ -416,16 +417,26 @@ TEST(Robust, HalfHiddenMarkersGetNoWrongName) {
 
 // ---- all together ----
 
-DigitalImage SevenMarkers(std::vector<Drawing>& truth, double odd_size = 1.0) {
+// Some or all markers of the set side by side; the triangle may be nearer to the camera than the
+// others, and turned from it.
+struct MarkerRow {
+  std::vector<int> numbers = {0, 1, 2, 3, 4, 5, 6};
+  double triangle_size = 1.0, triangle_tilt_deg = 8.0;
+};
+
+DigitalImage DrawRow(const MarkerRow& row) {
   constexpr int kWidth = 460, kHeight = 300;
   DrawnPicture picture(kWidth, kHeight, 10.0);
-  for (int number = 0; number <= 6; ++number) {
+  for (const int number : row.numbers) {
     Drawing d;
     d.number = number;
     d.pose.at_px = {50.3 + 60.0 * number, 60.0 + 30.0 * number};
     d.pose.roll_deg = 50.0 * number;
     d.pose.tilt_deg = 8.0 * number;
-    if (number == 1) d.pose.distance_mm /= odd_size;
+    if (number == 1) {
+      d.pose.distance_mm /= row.triangle_size;
+      d.pose.tilt_deg = row.triangle_tilt_deg;
+    }
     const MarkerShape& shape = DefaultMarkerSet().ByNumber(number);
     const PosedMarker marker(d.pose, kWidth, kHeight);
     picture.Lay(marker.Box(shape.Radius()), 0.4, [&](const Vec2d& px) -> std::optional<double> {
@@ -433,14 +444,12 @@ DigitalImage SevenMarkers(std::vector<Drawing>& truth, double odd_size = 1.0) {
       if (!meeting || !shape.Contains(meeting->in_marker)) return std::nullopt;
       return 150.0;
     });
-    truth.push_back(d);
   }
   return picture.Digitise(0.5, kGain, kPattern, 5);
 }
 
 TEST(Robust, SameBytesOnAnyNumberOfThreadsAndNamesFromTopToBottom) {
-  std::vector<Drawing> truth;
-  const DigitalImage image = SevenMarkers(truth);
+  const DigitalImage image = DrawRow({});
   const auto text = [](const std::vector<Detection>& found) {
     return DetectionsJson("robust", {{"a.png", "a", found}}).dump();
   };
@@ -454,9 +463,40 @@ TEST(Robust, SameBytesOnAnyNumberOfThreadsAndNamesFromTopToBottom) {
   EXPECT_THAT(results, testing::Each(text(alone)));
 }
 
-TEST(Robust, ANameWhoseSizeTheOthersRefuteIsTakenBack) {
-  std::vector<Drawing> truth;
-  for (const Detection& d : Identify(SevenMarkers(truth, 1.6))) EXPECT_NE(d.marker, 1);
+// ---- what the sizes of a picture's markers say of one another ----
+
+int TrianglesIn(const MarkerRow& row) {
+  const std::vector<Detection> found = Identify(DrawRow(row));
+  return static_cast<int>(
+      std::count_if(found.begin(), found.end(), [](const Detection& d) { return d.marker == 1; }));
+}
+
+TEST(SizeConsensus, ANameOfAnotherSizeIsTakenBack) {
+  EXPECT_EQ(TrianglesIn({}), 1);
+  EXPECT_EQ(TrianglesIn({.triangle_size = 1.6}), 0);
+}
+
+// From nearly the side any quadrilateral, and any triangle, is anything: alone it has no name.
+TEST(SizeConsensus, ANameOfTheSameSizeIsGivenThatAloneIsNot) {
+  constexpr double kTilt_deg = 73.0;
+  EXPECT_EQ(TrianglesIn({.numbers = {1}, .triangle_tilt_deg = kTilt_deg}), 0);
+  EXPECT_EQ(TrianglesIn({.triangle_tilt_deg = kTilt_deg}), 1);
+}
+
+// Densities of right over wrong names: the ratio times the density of wrong ones, which is 0.6 over
+// 1 / 0.6 of the logarithm, is a density again and integrates to 1.
+TEST(SizeConsensus, OddsAreARatioOfDensities) {
+  constexpr double kWrong = 0.6, kStep = 1e-4;
+  for (const size_t witnesses : {1, 3}) {
+    double sum = 0.0;
+    for (double d = -0.5 / kWrong + 0.5 * kStep; d < 0.5 / kWrong; d += kStep)
+      sum += kWrong * std::exp(SizeLogOdds(d, 1, witnesses)) * kStep;
+    EXPECT_NEAR(sum, 1.0, 1e-3) << witnesses;
+  }
+  EXPECT_GT(SizeLogOdds(0.0, 1, 3), SizeLogOdds(0.05, 1, 3));
+  EXPECT_EQ(SizeLogOdds(0.05, 1, 3), SizeLogOdds(-0.05, 1, 3));
+  EXPECT_GT(SizeLogOdds(0.0, 1, 3), SizeLogOdds(0.0, 3, 3));  // of three sizes one agrees sooner
+  EXPECT_GT(SizeLogOdds(1.0, 1, 1), SizeLogOdds(1.0, 1, 3));  // the one witness may be wrong
 }
 
 TEST(Robust, SixteenBitsSeeWhatEightBitsSee) {
