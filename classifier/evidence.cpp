@@ -21,7 +21,9 @@ bool WithinLimits(const Evidence& e, bool agrees) {
   const double least_foreshortening = round ? 0.17 : !imitated ? 0.20 : agrees ? 0.25 : 0.30;
   // What a cable cuts off a bright square is a triangle, too.
   const bool cut = !round && imitated && !agrees && (e.ground_step > 0.35 || e.torn);
-  const bool alone = !imitated || e.framed > 0.3 || agrees;
+  // Dark triangles are seen between things; a dark disc of the right size is a bright one at an
+  // angle at which it sends less than the mask.
+  const bool alone = !imitated || e.framed > 0.3 || (round && agrees);
   const bool flat = round || e.saddle < (agrees ? 0.25 : 0.12);
   // A nose bends like this, and a marker goes on unseen where it is as bright as the ground: both
   // are believed if nothing else looks like it.
