@@ -271,9 +271,7 @@ function checkStereo(schemas, work) {
   vault.masks = { face: { x_deg: [0], y_deg: [10], z_deg: [40] } };
   vault.combinations = { extra: [] };
   fs.writeFileSync(path.join(work, 'three.json'), JSON.stringify(vault));
-  const placement = { phi_b_deg: 48, theta1_deg: 31.67, theta2_deg: 70.52 };
-  fs.writeFileSync(path.join(work, 'placed.json'), JSON.stringify({ placement }));
-  const placed = ['--placement', 'placed.json', '--scenario', 'three.json'];
+  const placed = ['--placement', 'vault-whole/solution.json', '--scenario', 'three.json'];
   run(work, 'study', 'hotspot', ...placed, ...least, '--out', 'hotspot-placed');
 }
 
@@ -299,9 +297,9 @@ function checkOutputs(schemas, work) {
     const output = run(work, 'study', 'markers', ...coarse, '--json', '--out', 'study');
     if (output !== null) checkText(schemas, 'standard output of study markers --json', output);
   }
-  checkStereo(schemas, work);
-  checkLayout(schemas, work);
   checkVault(schemas, work);
+  checkStereo(schemas, work); // with a placement of checkVault
+  checkLayout(schemas, work);
   checkDataset(schemas, work);
   const small = ['--triangles', '1280', '--sample-area', '4', '--size', '160x120'];
   const areas = run(work, 'study', 'areas', ...small, '--json', '--out', 'areas');
