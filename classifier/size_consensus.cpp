@@ -67,6 +67,51 @@ bool Overlap(const JudgedPattern& a, const JudgedPattern& b) {
          Contains(b.fitted_px, a.detection.centre_px.value_or(a.detection.centroid_px));
 }
 
+// The least likely name goes first: it may be what makes others look odd.
+void TakeBackUnlikely(const std::vector<ShapeModel>& models, double min_probability,
+                      std::vector<JudgedPattern>& judged) {
+  while (true) {
+    JudgedPattern* least = nullptr;
+    for (JudgedPattern& j : judged) {
+      if (!j.detection.marker) continue;
+      j.probability = NameProbability(j.evidence, SizeLogOddsOf(j, models, judged));
+      if (least == nullptr || j.probability < least->probability) least = &j;
+    }
+    if (least == nullptr || least->probability >= min_probability) return;
+    SetName(*least, false);
+  }
+}
+
+// Of patterns over one another the likeliest.
+void NameLikeliest(double min_probability, std::vector<JudgedPattern>& judged) {
+  std::vector<JudgedPattern*> likely;
+  for (JudgedPattern& j : judged) {
+    if (j.evidence.fitted && j.probability >= min_probability) likely.push_back(&j);
+  }
+  std::stable_sort(likely.begin(), likely.end(),
+                   [](const auto* a, const auto* b) { return a->probability > b->probability; });
+  std::vector<const JudgedPattern*> named;
+  for (JudgedPattern* j : likely) {
+    const bool taken = std::any_of(named.begin(), named.end(),
+                                   [&](const auto* other) { return Overlap(*j, *other); });
+    SetName(*j, !taken);
+    if (!taken) named.push_back(j);
+  }
+}
+
+// Patterns without a name within one that has one are found parts of it.
+void DropNameless(std::vector<JudgedPattern>& judged) {
+  std::vector<std::pair<bool, Polygon>> named;
+  for (const JudgedPattern& j : judged) {
+    if (j.detection.marker) named.emplace_back(j.dark, j.fitted_px);
+  }
+  std::erase_if(judged, [&](const JudgedPattern& j) {
+    return !j.detection.marker && std::any_of(named.begin(), named.end(), [&](const auto& other) {
+      return other.first == j.dark && Contains(other.second, Centroid(j.outline_px));
+    });
+  });
+}
+
 }  // namespace
 
 double SizeLogOdds(double deviation, size_t sizes, size_t witnesses) {
@@ -83,45 +128,13 @@ double SizeLogOdds(double deviation, size_t sizes, size_t witnesses) {
 
 void NameBySize(const std::vector<ShapeModel>& models, double min_probability,
                 std::vector<JudgedPattern>& judged) {
-  // The least likely name goes first: it may be what makes others look odd.
-  while (true) {
-    JudgedPattern* least = nullptr;
-    for (JudgedPattern& j : judged) {
-      if (!j.detection.marker) continue;
+  TakeBackUnlikely(models, min_probability, judged);
+  for (JudgedPattern& j : judged) {
+    if (j.evidence.fitted && !j.detection.marker)
       j.probability = NameProbability(j.evidence, SizeLogOddsOf(j, models, judged));
-      if (least == nullptr || j.probability < least->probability) least = &j;
-    }
-    if (least == nullptr || least->probability >= min_probability) break;
-    SetName(*least, false);
   }
-  std::vector<size_t> likely;
-  for (size_t i = 0; i < judged.size(); ++i) {
-    JudgedPattern& j = judged[i];
-    if (!j.evidence.fitted) continue;
-    if (!j.detection.marker)
-      j.probability = NameProbability(j.evidence, SizeLogOddsOf(j, models, judged));
-    if (j.probability >= min_probability) likely.push_back(i);
-  }
-  std::stable_sort(likely.begin(), likely.end(), [&](size_t a, size_t b) {
-    return judged[a].probability > judged[b].probability;
-  });
-  std::vector<size_t> named;
-  for (const size_t i : likely) {
-    const bool taken = std::any_of(named.begin(), named.end(),
-                                   [&](size_t k) { return Overlap(judged[i], judged[k]); });
-    SetName(judged[i], !taken);
-    if (!taken) named.push_back(i);
-  }
-  std::vector<JudgedPattern> kept;
-  for (size_t i = 0; i < judged.size(); ++i) {
-    const JudgedPattern& j = judged[i];
-    const bool within = std::any_of(named.begin(), named.end(), [&](size_t k) {
-      return k != i && judged[k].dark == j.dark &&
-             Contains(judged[k].fitted_px, Centroid(j.outline_px));
-    });
-    if (j.detection.marker || !within) kept.push_back(j);
-  }
-  judged = std::move(kept);
+  NameLikeliest(min_probability, judged);
+  DropNameless(judged);
 }
 
 }  // namespace retrolux
