@@ -11,23 +11,25 @@ namespace {
 constexpr double kAgrees = 1.0;
 
 // Outside of these nothing is named. A pattern whose size is that of the picture's other markers
-// (`agrees`) has to answer less.
-bool WithinLimits(const Evidence& e, bool agrees) {
+// (`same_size`) has to answer less; not a triangle, whose three sizes agree with any too easily.
+bool WithinLimits(const Evidence& e, bool same_size) {
+  const bool agrees = same_size && e.straight_edges != 3;
   const bool round = e.straight_edges == 0;
   // Parts of other shapes, strips, glints and rings imitate these.
   const bool imitated = e.straight_edges <= 4;
   const double least_lead = imitated && !agrees ? 20.0 : 5.0;
   // Seen from nearly the side any quadrilateral is anything.
   const double least_foreshortening = round ? 0.17 : !imitated ? 0.20 : agrees ? 0.25 : 0.30;
-  // What a cable cuts off a bright square is a triangle, too.
-  const bool cut = !round && imitated && !agrees && (e.ground_step > 0.35 || e.torn);
+  // What a cable cuts off a bright square is a triangle, too; of 3,797 discs one was above 0.5.
+  const bool cut =
+      round ? e.ground_step > 0.8 : imitated && !agrees && (e.ground_step > 0.35 || e.torn);
   // Dark triangles are seen between things; a dark disc of the right size is a bright one at an
   // angle at which it sends less than the mask.
   const bool alone = !imitated || e.framed > 0.3 || (round && agrees);
   const bool flat = round || e.saddle < (agrees ? 0.25 : 0.12);
   // A nose bends like this, and a marker goes on unseen where it is as bright as the ground: both
   // are believed if nothing else looks like it.
-  const bool sole = agrees && e.lead > 500.0;
+  const bool sole = agrees && e.lead > 5000.0;
   const bool bent = e.bend > (sole ? 300.0 : 40.0);
   const double least_contrast = !agrees ? 0.2 : !sole ? 0.05 : imitated ? -0.15 : -0.4;
   // A ring of diodes, and the dark in its middle.
@@ -56,6 +58,8 @@ double Common(const Evidence& e, const Weights& w, double most_bend) {
          w.contrast * std::log(std::min(e.contrast_sigma, 100.0) / 10.0);
 }
 
+// Sizes beyond these, px and px2, were in no picture that the weights were fitted to.
+constexpr double kLargestHalf_px = 30.0, kLargestArea_px2 = 1500.0;
 struct SizeWeights {
   double saddle, half_size, area;
 };
@@ -64,7 +68,8 @@ constexpr SizeWeights kManyEdgesSize{-0.720, 2.199, 1.840};
 
 double OfPolygon(const Evidence& e, const Weights& w, const SizeWeights& s, double most_bend) {
   return Common(e, w, most_bend) + s.saddle * std::min(e.saddle, 0.1) / 0.01 +
-         s.half_size * std::log(e.half_size_px / 10.0) + s.area * std::log(e.area_px / 100.0);
+         s.half_size * std::log(std::min(e.half_size_px, kLargestHalf_px) / 10.0) +
+         s.area * std::log(std::min(e.area_px, kLargestArea_px2) / 100.0);
 }
 
 // Glints are blurred, white, or have a peak; a ring's dark middle has no ground around it.
