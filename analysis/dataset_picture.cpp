@@ -56,7 +56,7 @@ TraceOptions Tracing(const Stage& stage) {
   TraceOptions trace;
   trace.samples_per_pixel = stage.options.samples_per_pixel;
   trace.seed = CombineKeys(stage.options.seed, HashBytes(stage.drawn.name));
-  trace.own_ray_share = 0.1f;
+  trace.own_ray_share = kStrongGroups;
   return trace;
 }
 

@@ -11,17 +11,9 @@ namespace {
 
 using nlohmann::json;
 
-std::string Number(double value) {
-  return fmt::format("{:.6g}", value);
-}
-
 // What has not been found has no place.
 std::string Place(double px) {
-  return px < 0.0 ? "" : Number(px);
-}
-
-void Add(const std::vector<double>& values, std::vector<std::string>& cells) {
-  for (const double value : values) cells.push_back(Number(value));
+  return px < 0.0 ? "" : CsvNumber(px);
 }
 
 const std::vector<std::string> kLevelColumns = {"peak_e",
@@ -62,40 +54,41 @@ const std::vector<std::string> kLevelColumns = {"peak_e",
                                                 "corner_noise_edges_px"};
 
 void AddRate(const Proportion& rate, std::vector<std::string>& cells) {
-  cells.push_back(Number(rate.Wilson().low));
-  cells.push_back(Number(rate.Wilson().high));
+  cells.push_back(CsvNumber(rate.Wilson().low));
+  cells.push_back(CsvNumber(rate.Wilson().high));
 }
 
 std::string Rate(const Proportion& rate) {
   const std::optional<double> value = rate.Value();
-  return value ? Number(*value) : "";
+  return value ? CsvNumber(*value) : "";
 }
 
 // First the columns that others read (the contract of the command), then more.
 void AddMix(const HotspotMixRow& row, std::vector<std::string>& cells) {
   const HotspotLevels &mean = row.mean, &error = row.error;
   const HotspotMethodRow &robust = row.methods.at("robust"), &edges = row.methods.at("edges");
-  Add({mean.peak_e, mean.saturated_px, mean.background_e, mean.contrast, robust.false_detections},
+  AddNumbers(
+      {mean.peak_e, mean.saturated_px, mean.background_e, mean.contrast, robust.false_detections},
       cells);
   cells.push_back(Rate(robust.hits));
   cells.push_back(Place(robust.centroid_shift_px));
-  Add({error.peak_e, mean.saturated_mask_px, error.background_e, mean.gradient_e_px,
-       error.gradient_e_px, mean.marker_e, error.marker_e, error.contrast, mean.background_noise_e,
-       mean.marker_noise_e},
-      cells);
+  AddNumbers({error.peak_e, mean.saturated_mask_px, error.background_e, mean.gradient_e_px,
+              error.gradient_e_px, mean.marker_e, error.marker_e, error.contrast,
+              mean.background_noise_e, mean.marker_noise_e},
+             cells);
   AddRate(robust.hits, cells);
   cells.push_back(Rate(edges.hits));
   AddRate(edges.hits, cells);
-  Add({robust.false_error, edges.false_detections, edges.false_error, robust.wrong_names,
-       edges.wrong_names},
-      cells);
+  AddNumbers({robust.false_error, edges.false_detections, edges.false_error, robust.wrong_names,
+              edges.wrong_names},
+             cells);
   cells.push_back(Place(robust.corner_shift_px));
-  Add({robust.centroid_noise_px, robust.corner_noise_px}, cells);
+  AddNumbers({robust.centroid_noise_px, robust.corner_noise_px}, cells);
   cells.push_back(Place(robust.noisy_shift_px));
-  cells.push_back(Number(robust.noisy_shift_error_px));
+  cells.push_back(CsvNumber(robust.noisy_shift_error_px));
   cells.push_back(Place(edges.centroid_shift_px));
   cells.push_back(Place(edges.corner_shift_px));
-  Add({edges.centroid_noise_px, edges.corner_noise_px}, cells);
+  AddNumbers({edges.centroid_noise_px, edges.corner_noise_px}, cells);
 }
 
 std::vector<std::string> Columns(std::vector<std::string> first,
@@ -141,15 +134,16 @@ void WriteRoom(const std::vector<HotspotRoomView>& room, const std::filesystem::
 void AddRings(const std::string& name, double psi_deg, const HotspotRow& row, CsvWriter& table) {
   for (const RingLight& ring : row.rings) {
     std::vector<std::string> cells = {name, fmt::format("{:g}", psi_deg), ring.name};
-    Add({ring.separation_deg, ring.beam_e, ring.gloss_e, ring.lobe_e, ring.sheet_e, ring.cover_e,
+    AddNumbers(
+        {ring.separation_deg, ring.beam_e, ring.gloss_e, ring.lobe_e, ring.sheet_e, ring.cover_e,
          ring.direct_px, ring.direct_peak_e, ring.highlight.peak_e, ring.highlight.area_px},
         cells);
     const bool seen = ring.highlight.peak_e > 0.0;
-    for (const double v : ring.highlight.at_px) cells.push_back(seen ? Number(v) : "");
-    for (const double v : ring.highlight.at_mm) cells.push_back(seen ? Number(v) : "");
+    for (const double v : ring.highlight.at_px) cells.push_back(seen ? CsvNumber(v) : "");
+    for (const double v : ring.highlight.at_mm) cells.push_back(seen ? CsvNumber(v) : "");
     const HighlightDepths& depths = row.shots.front().depths;
     for (const double v : {depths.apart_mm, depths.cross_mm, depths.own_mm})
-      cells.push_back(depths.known ? Number(v) : "");
+      cells.push_back(depths.known ? CsvNumber(v) : "");
     table.Row(cells);
   }
 }
@@ -193,9 +187,10 @@ void WriteVerdict(const HotspotStudy& study, const std::filesystem::path& file) 
         for (size_t i = 0; i < limit.changes.size(); ++i) {
           const HotspotChange& change = limit.changes[i];
           table.Row({series.name, mix.name, limit.criterion->name, limit.criterion->unit,
-                     fmt::format("{:g}", series.rows[i].psi_deg), Number(change.change),
-                     change.p ? "" : Number(change.noise), change.p ? "" : Number(change.Sigmas()),
-                     change.p ? Number(*change.p) : "", change.Changed() ? "1" : "0"});
+                     fmt::format("{:g}", series.rows[i].psi_deg), CsvNumber(change.change),
+                     change.p ? "" : CsvNumber(change.noise),
+                     change.p ? "" : CsvNumber(change.Sigmas()),
+                     change.p ? CsvNumber(*change.p) : "", change.Changed() ? "1" : "0"});
         }
       }
     }

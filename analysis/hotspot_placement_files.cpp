@@ -9,14 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string Number(double value) {
-  return fmt::format("{:.6g}", value);
-}
-
-void Add(std::initializer_list<double> values, std::vector<std::string>& cells) {
-  for (const double value : values) cells.push_back(Number(value));
-}
-
 const std::vector<std::string> kChangeColumns = {"change_sigmas",
                                                  "changed_by",
                                                  "hot_spot",
@@ -42,22 +34,23 @@ const std::vector<std::string> kChangeColumns = {"change_sigmas",
                                                  "wrong_names_edges"};
 
 void AddChange(const NeighbourChange& change, std::vector<std::string>& cells) {
-  Add({change.Sigmas()}, cells);
+  AddNumbers({change.Sigmas()}, cells);
   cells.emplace_back(change.Largest());
   cells.emplace_back(change.IsHotSpot() ? "1" : "0");
   const Highlight& highlight = change.light.highlight;
-  Add({highlight.peak_e, change.highlight.Sigmas(), highlight.area_px}, cells);
-  for (const double mm : highlight.at_mm) cells.push_back(highlight.peak_e > 0.0 ? Number(mm) : "");
-  Add({change.tail.change, change.tail.Sigmas(), change.beam.change, change.beam.Sigmas(),
-       change.highlight.noise, change.tail.noise},
-      cells);
+  AddNumbers({highlight.peak_e, change.highlight.Sigmas(), highlight.area_px}, cells);
+  for (const double mm : highlight.at_mm)
+    cells.push_back(highlight.peak_e > 0.0 ? CsvNumber(mm) : "");
+  AddNumbers({change.tail.change, change.tail.Sigmas(), change.beam.change, change.beam.Sigmas(),
+              change.highlight.noise, change.tail.noise},
+             cells);
   cells.push_back(std::to_string(change.pictures));
   const HotspotMethodRow &robust = change.methods.at("robust"), &edges = change.methods.at("edges");
   cells.push_back(std::to_string(robust.hits.of));
   for (const HotspotMethodRow* row : {&robust, &edges}) {
     cells.push_back(std::to_string(row->lost));
     cells.push_back(std::to_string(row->gained));
-    cells.push_back(Number(row->wrong_names));
+    cells.push_back(CsvNumber(row->wrong_names));
   }
 }
 
@@ -71,11 +64,11 @@ void WriteTriples(const HotspotPlacement& placement, const std::filesystem::path
     const MaskRotation& rotation = placement.options.vault.rotations[triple.rotation];
     std::vector<std::string> cells = {placement.cameras[triple.camera],
                                       placement.cameras[triple.ring]};
-    Add({triple.separation_deg, rotation.x_deg, rotation.y_deg, rotation.z_deg,
-         triple.forecast.peak_e},
-        cells);
+    AddNumbers({triple.separation_deg, rotation.x_deg, rotation.y_deg, rotation.z_deg,
+                triple.forecast.peak_e},
+               cells);
     for (const double mm : triple.forecast.at_mm)
-      cells.push_back(triple.forecast.peak_e > 0.0 ? Number(mm) : "");
+      cells.push_back(triple.forecast.peak_e > 0.0 ? CsvNumber(mm) : "");
     cells.emplace_back(triple.change ? "1" : "0");
     if (triple.change) AddChange(*triple.change, cells);
     cells.resize(columns.size());
@@ -96,18 +89,18 @@ void WritePairs(const HotspotPlacement& placement, const std::filesystem::path& 
                    "rotations_forecast_hot", "forecast_e"});
   for (const PlacementPair& pair : PairsOf(placement)) {
     std::vector<std::string> cells = {placement.cameras[pair.a], placement.cameras[pair.b]};
-    Add({pair.separation_deg}, cells);
+    AddNumbers({pair.separation_deg}, cells);
     cells.emplace_back(pair.separation_deg < kThesisLimit_deg ? "1" : "0");
     for (const int count : {pair.rendered, pair.hot}) cells.push_back(std::to_string(count));
     const MaskRotation& worst = placement.options.vault.rotations[pair.worst->rotation];
-    Add({pair.worst->change->highlight.change, pair.highlight_sigmas, worst.x_deg, worst.y_deg,
-         worst.z_deg, pair.tail_sigmas, pair.beam_sigmas},
-        cells);
+    AddNumbers({pair.worst->change->highlight.change, pair.highlight_sigmas, worst.x_deg,
+                worst.y_deg, worst.z_deg, pair.tail_sigmas, pair.beam_sigmas},
+               cells);
     for (const int64_t count : {pair.names, pair.lost, pair.gained})
       cells.push_back(std::to_string(count));
     cells.push_back(std::to_string(placement.options.vault.rotations.size()));
     cells.push_back(std::to_string(pair.forecast_hot));
-    Add({pair.forecast_peak_e}, cells);
+    AddNumbers({pair.forecast_peak_e}, cells);
     table.Row(cells);
   }
   table.Write(file);

@@ -166,7 +166,7 @@ class PosedCamera {
   TraceOptions Tracing() const {
     TraceOptions trace;
     trace.samples_per_pixel = study_.options.samples_per_pixel;
-    trace.own_ray_share = 0.1f;
+    trace.own_ray_share = kStrongGroups;
     trace.roulette = kRoulette;
     trace.seed =
         CombineKeys(study_.options.seed, HashBytes(study_.poses[static_cast<size_t>(pose_)].name));

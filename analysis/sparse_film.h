@@ -17,8 +17,8 @@
 namespace retrolux {
 
 struct SparseSamples {
-  int pixel = 8;  // paths a pixel
-  int node = 32;  // of the grid, each of which stands for many pixels
+  int pixel = 8;    // paths a pixel
+  int node = 16;    // of the grid, each of which stands for many pixels
   int marker = 32;  // on markers and at their edges
 };
 

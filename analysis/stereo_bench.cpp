@@ -208,7 +208,7 @@ Film RenderSparsely(const Scene& scene, const RayScene& rays,
   TraceOptions trace;
   trace.samples_per_pixel = samples_per_pixel;
   trace.seed = seed;
-  trace.own_ray_share = 0.1f;
+  trace.own_ray_share = kStrongGroups;
   trace.roulette = 0.5f;
   const IdBuffers ids = RenderIds(rays, camera.model, placed);
   const Lights lights(scene, rays, RingChoice::kAll, camera.model.name);

@@ -15,12 +15,8 @@ const char* NameOf(MarkerPoint point) {
   return point == MarkerPoint::kCentre ? "centre" : "light";
 }
 
-std::string Number(double value) {
-  return fmt::format("{:.6g}", value);
-}
-
 void Add(const Vec3d& v, std::vector<std::string>& cells) {
-  for (Eigen::Index i = 0; i < 3; ++i) cells.push_back(Number(v[i]));
+  for (Eigen::Index i = 0; i < 3; ++i) cells.push_back(CsvNumber(v[i]));
 }
 
 void WriteErrors(const StereoStudy& study, const std::filesystem::path& file) {
@@ -59,7 +55,7 @@ void WriteErrors(const StereoStudy& study, const std::filesystem::path& file) {
     std::vector<std::string> cells = {NameOf(row.target),
                                       fmt::format("{:g}", row.psi_deg),
                                       NameOf(row.point),
-                                      Number(row.incidence_deg),
+                                      CsvNumber(row.incidence_deg),
                                       std::to_string(row.error.expected),
                                       std::to_string(row.error.found),
                                       std::to_string(row.misnamed)};
@@ -67,21 +63,21 @@ void WriteErrors(const StereoStudy& study, const std::filesystem::path& file) {
       cells.resize(23);
     } else {
       for (const double v : {row.error.rms, row.error.rms_low, row.error.rms_high})
-        cells.push_back(Number(v));
+        cells.push_back(CsvNumber(v));
       Add(row.error.axis_rms, cells);
       Add(row.error.bias, cells);
       Add(row.error.noise, cells);
-      cells.push_back(Number(row.error.noise_px));
+      cells.push_back(CsvNumber(row.error.noise_px));
       Add(RaySigma_mm(row.error.noise_px * study.mm_per_px, row.psi_deg), cells);
     }
-    cells.push_back(Number(curve.Error_mm(RadFromDeg(row.psi_deg))));
+    cells.push_back(CsvNumber(curve.Error_mm(RadFromDeg(row.psi_deg))));
     cells.push_back(std::to_string(row.pose.poses));
     if (row.pose.poses == 0) {
       cells.resize(29);
     } else {
       for (const double v : {row.pose.translation_rms_mm, row.pose.rotation_rms_deg,
                              row.pose.fre_rms_mm, row.pose.expected_tre_mm})
-        cells.push_back(Number(v));
+        cells.push_back(CsvNumber(v));
     }
     table.Row(cells);
   }
@@ -99,7 +95,7 @@ void WriteBudget(const StereoStudy& study, const std::filesystem::path& file) {
   for (const StereoStudy::Budget& budget : study.budgets) {
     for (const BudgetLine& line : budget.lines) {
       std::vector<std::string> cells = {NameOf(budget.target), MarkerName(budget.number),
-                                        line.stage, Number(line.rms_px), Number(line.rms_mm)};
+                                        line.stage, CsvNumber(line.rms_px), CsvNumber(line.rms_mm)};
       Add(line.bias_mm, cells);
       table.Row(cells);
     }

@@ -7,10 +7,6 @@ namespace retrolux {
 
 namespace {
 
-std::string Number(double value) {
-  return fmt::format("{:.6g}", value);
-}
-
 const MaskRotation& RotationOf(const VaultStudy& study, const PlacementResult& result) {
   return study.rotations[result.WorstMask()][static_cast<size_t>(result.Worst().rotation)];
 }
@@ -25,19 +21,19 @@ std::vector<std::string> EvaluationRow(const VaultStudy& study, const PlacementR
   const Evaluation& e = result.by_mask[mask];
   const MaskRotation& rotation = study.rotations[mask][static_cast<size_t>(e.rotation)];
   return {std::to_string(result.phase),
-          Number(e.placement.phi_b_deg),
-          Number(e.placement.theta1_deg),
-          Number(e.placement.theta2_deg),
-          Number(e.Cost()),
-          Number(Percent(study, mask, e.worth.area_mm2)),
-          Number(e.worth.area_mm2 / 100.0),
-          Number(DegFromRad(e.min_angle_rad)),
-          Number(DegFromRad(e.min_nominal_angle_rad)),
-          Number(e.recon_error_mm),
+          CsvNumber(e.placement.phi_b_deg),
+          CsvNumber(e.placement.theta1_deg),
+          CsvNumber(e.placement.theta2_deg),
+          CsvNumber(e.Cost()),
+          CsvNumber(Percent(study, mask, e.worth.area_mm2)),
+          CsvNumber(e.worth.area_mm2 / 100.0),
+          CsvNumber(DegFromRad(e.min_angle_rad)),
+          CsvNumber(DegFromRad(e.min_nominal_angle_rad)),
+          CsvNumber(e.recon_error_mm),
           NameOf(e.worth.combination),
-          Number(rotation.x_deg),
-          Number(rotation.y_deg),
-          Number(rotation.z_deg),
+          CsvNumber(rotation.x_deg),
+          CsvNumber(rotation.y_deg),
+          CsvNumber(rotation.z_deg),
           study.options.masks[mask]};
 }
 
@@ -68,8 +64,8 @@ void WriteOrientations(const VaultStudy& study, const std::filesystem::path& fol
     for (size_t i = 0; i < study.rotations[mask].size(); ++i) {
       const MaskRotation& rotation = study.rotations[mask][i];
       const OrientationWorth& worth = study.best.orientations[mask][i];
-      table.Row({Number(rotation.x_deg), Number(rotation.y_deg), Number(rotation.z_deg),
-                 Number(worth.cost_mm2 / Evaluation::kCostUnit_mm2), NameOf(worth.combination),
+      table.Row({CsvNumber(rotation.x_deg), CsvNumber(rotation.y_deg), CsvNumber(rotation.z_deg),
+                 CsvNumber(worth.cost_mm2 / Evaluation::kCostUnit_mm2), NameOf(worth.combination),
                  study.options.masks[mask]});
     }
   }

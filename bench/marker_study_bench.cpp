@@ -18,9 +18,8 @@ using namespace retrolux;
 constexpr int kSpp = 32;
 constexpr int kPixels = 640 * 480;
 
-// TraceOptions::own_ray_share: all groups, and those that the study gives a shadow ray of their
-// own.
-constexpr float kEveryGroup = 0.0f, kStrongGroups = 0.1f;
+// TraceOptions::own_ray_share: a shadow ray for each group of light.
+constexpr float kEveryGroup = 0.0f;
 
 // The room with one camera ready, and a marker in the middle of its picture.
 struct Bench {

@@ -84,14 +84,14 @@ double OfDisc(const Evidence& e) {
 
 }  // namespace
 
-double NameProbability(const Evidence& e, double size_log_odds) {
-  const bool agrees = size_log_odds > kAgrees;
+double NameProbability(const Evidence& e, double others_log_odds) {
+  const bool agrees = others_log_odds > kAgrees;
   if (!WithinLimits(e, agrees)) return 0.0;
   const double most_bend = agrees ? 10.0 : 30.0;
   const double sum = e.straight_edges == 0   ? OfDisc(e)
                      : e.straight_edges <= 4 ? OfPolygon(e, kFewEdges, kFewEdgesSize, most_bend)
                                              : OfPolygon(e, kManyEdges, kManyEdgesSize, most_bend);
-  return 1.0 / (1.0 + std::exp(-sum - size_log_odds));
+  return 1.0 / (1.0 + std::exp(-sum - others_log_odds));
 }
 
 }  // namespace retrolux

@@ -40,8 +40,8 @@ struct Evidence {
 // three or four edges, which cut and torn patterns imitate, one for those with more, which nothing
 // imitates, and one for discs, which glints imitate. 0 beyond the limits within which they were
 // fitted. docs/identification.md gives the patterns that they were fitted to and how well they
-// hold. `size_log_odds`: what the sizes of the picture's other markers add (size_consensus.h); if
+// hold. `others_log_odds`: what the sizes of the picture's other markers add (consensus.h); if
 // they agree, wider limits hold.
-double NameProbability(const Evidence& evidence, double size_log_odds = 0.0);
+double NameProbability(const Evidence& evidence, double others_log_odds = 0.0);
 
 }  // namespace retrolux

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classifier/consensus.h"
 #include "classifier/debug_pictures.h"
 #include "classifier/judge.h"
 #include "classifier/option_range.h"
-#include "classifier/size_consensus.h"
 
 namespace retrolux {
 
@@ -116,7 +116,7 @@ std::vector<JudgedPattern> JudgePatterns(const DigitalImage& image, const Marker
     decide(FindTornPatterns(field, bands, relief, limits), true);
     MakeNegative(field, relief, bands);
   }
-  NameBySize(models, options.min_probability, judged);
+  NameByConsensus(models, options.min_probability, judged);
   if (debug != nullptr) WriteDebugPictures(*debug, field, bands, judged);
   return judged;
 }

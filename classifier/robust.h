@@ -12,7 +12,7 @@
 //   dark_frame.h   whether a dark marker lies on a bright square of its own
 //   evidence.h     what speaks for and against a name, and its probability
 //   judge.h        the decision on one pattern
-//   size_consensus.h  what the markers of a picture say of one another
+//   consensus.h  what the markers of a picture say of one another
 #pragma once
 
 #include <filesystem>

@@ -9,6 +9,14 @@
 
 namespace retrolux {
 
+std::string CsvNumber(double value) {
+  return fmt::format("{:.6g}", value);
+}
+
+void AddNumbers(const std::vector<double>& values, std::vector<std::string>& cells) {
+  for (const double value : values) cells.push_back(CsvNumber(value));
+}
+
 CsvWriter::CsvWriter(const std::vector<std::string>& columns) : columns_(columns.size()) {
   Line(columns);
 }

@@ -9,6 +9,10 @@
 
 namespace retrolux {
 
+// Six significant digits.
+std::string CsvNumber(double value);
+void AddNumbers(const std::vector<double>& values, std::vector<std::string>& cells);
+
 class CsvWriter {
  public:
   explicit CsvWriter(const std::vector<std::string>& columns);

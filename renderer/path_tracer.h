@@ -10,6 +10,9 @@
 
 namespace retrolux {
 
+// TraceOptions::own_ray_share of what renders many pictures.
+inline constexpr float kStrongGroups = 0.1f;
+
 struct TraceOptions {
   int samples_per_pixel = 64;
   uint64_t seed = 1;

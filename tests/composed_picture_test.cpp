@@ -43,7 +43,7 @@ struct Room {
 TraceOptions Options(uint64_t seed) {
   TraceOptions options;
   options.samples_per_pixel = 64;
-  options.own_ray_share = 0.1f;
+  options.own_ray_share = kStrongGroups;
   options.seed = seed;
   return options;
 }

@@ -399,7 +399,7 @@ TEST(PathTracer, GroupsDoNotDependOnHowTheyAreSampled) {
   // number, hence 0.1 % for all).
   const Scene scene = RoomWithMarkerFacing("front-middle", 20.0);
   const RayScene rays(scene);
-  constexpr float kEveryGroup = 0.0f, kStrongGroups = 0.1f, kOneOfAll = 2.0f;
+  constexpr float kEveryGroup = 0.0f, kOneOfAll = 2.0f;
   const auto every = GroupMeans(scene, rays, RingChoice::kAll, kEveryGroup, 100);
   const auto own = GroupMeans(scene, rays, RingChoice::kOwn, kEveryGroup, 300);
   ASSERT_EQ(every.size(), 7u);

@@ -10,11 +10,11 @@
 
 #include <filesystem>
 
+#include "classifier/consensus.h"
 #include "classifier/dark_frame.h"
 #include "classifier/detections_json.h"
 #include "classifier/method.h"
 #include "classifier/proposals.h"
-#include "classifier/size_consensus.h"
 #include "core/error.h"
 #include "core/image_file.h"
 #include "core/parallel.h"

@@ -157,7 +157,7 @@ TagPicture RenderTag(const TagView& view) {
   const CameraResponse response(camera, lights.Spectra(), exposure_s);
   TraceOptions trace;
   trace.seed = view.seed;
-  trace.own_ray_share = 0.1f;
+  trace.own_ray_share = kStrongGroups;
   trace.roulette = 0.5f;
   const PathTracer tracer(scene, rays, lights, response, tags, trace);
   // The paths' scatter counts as noise to a threshold half way between the darkest and the

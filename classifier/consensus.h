@@ -1,19 +1,19 @@
-// What the sizes of the other markers of a picture say of a name. The markers of one mask are
-// nearly equally far from a camera, so that their squares have nearly the same size in its picture;
-// parts of markers, strips and glints that look like a marker look like one of any size.
+// What the other markers of a picture say of a name, by their size and polarity. The markers of one
+// mask are nearly equally far from a camera, so that their squares have nearly the same size in its
+// picture; parts of markers, strips and glints that look like a marker look like one of any size.
 #pragma once
 
 #include "classifier/robust.h"
 
 namespace retrolux {
 
-// Weighs all patterns by their size and gives those names that are then likely enough
+// Weighs all patterns by the others and gives those names that are then likely enough
 // (`min_probability`), takes those away that are not, and sets Detection::confidence. Sizes are
 // compared with the median of the other named patterns, shapes of three and four edges apart, which
 // are what has to be weighed. Without such others nothing changes. Of patterns over one another the
 // likeliest is named, and those without a name in it are dropped.
-void NameBySize(const std::vector<ShapeModel>& models, double min_probability,
-                std::vector<JudgedPattern>& judged);
+void NameByConsensus(const std::vector<ShapeModel>& models, double min_probability,
+                     std::vector<JudgedPattern>& judged);
 
 // The logarithm of the odds that a size adds to a name's: `deviation` is the logarithm of the size
 // over that of `witnesses` others, `sizes` the number of sizes that the pattern may have and of

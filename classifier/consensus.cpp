@@ -1,4 +1,4 @@
-#include "classifier/size_consensus.h"
+#include "classifier/consensus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,8 +133,8 @@ double SizeLogOdds(double deviation, size_t sizes, size_t witnesses) {
   return std::log((1.0 - off) * right / wrong + off);
 }
 
-void NameBySize(const std::vector<ShapeModel>& models, double min_probability,
-                std::vector<JudgedPattern>& judged) {
+void NameByConsensus(const std::vector<ShapeModel>& models, double min_probability,
+                     std::vector<JudgedPattern>& judged) {
   TakeBackUnlikely(models, min_probability, judged);
   for (JudgedPattern& j : judged) {
     if (j.evidence.fitted && !j.detection.marker)
