@@ -1,9 +1,15 @@
 #include "analysis/dataset.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
 
 #include "core/atomic_file.h"
-#include "core/hash.h"
+#include "core/error.h"
+#include "core/json_reader.h"
 
 namespace retrolux {
 
@@ -12,7 +18,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* kConfigFile = "config.json";
 constexpr const char* kIndexFile = "dataset.json";
 constexpr const char* kIndexSchema = "retrolux/dataset-index-1";
 
@@ -26,58 +31,36 @@ void CopyMasks(const DatasetConfig& config, const fs::path& folder) {
   }
 }
 
-std::vector<Task> TasksOf(const DatasetConfig& config) {
-  std::vector<Task> tasks;
-  for (int i = 0; i < config.scenes; ++i)
-    tasks.push_back({fmt::format("scene-{:05}", i), {{"scene", i}}});
-  return tasks;
-}
-
-RecordOptions Recording(const DatasetConfig& config, const DatasetRunOptions& options) {
-  return {config.seed, options.samples_per_pixel.value_or(config.samples_per_pixel),
-          options.keep_exr};
-}
-
-Json InputsOf(const DatasetScenes& scenes, const RecordOptions& options) {
-  Json inputs = scenes.Inputs();
-  inputs["spp"] = options.samples_per_pixel;
-  inputs["keep_exr"] = options.keep_exr;
-  return inputs;
-}
-
-bool PicturesAreThere(const Json& result, const fs::path& folder) {
-  const Json& pictures = result.at("pictures");
-  return std::all_of(pictures.begin(), pictures.end(), [&](const Json& picture) {
-    const fs::path file = folder / picture.at("file").get<std::string>();
-    return fs::exists(file) && HexHash(HashBytes(ReadTextFile(file))) == picture.at("hash");
-  });
-}
-
-Json HeaderOf(const Dataset& dataset) {
-  Json splits = Json::object();
-  int64_t pictures = 0, markers = 0;
-  for (const std::string& split : dataset.config.splits)
-    splits[split] = {{"scenes", 0}, {"pictures", 0}, {"markers", 0}};
-  for (const std::optional<DatasetScene>& scene : dataset.scenes) {
-    Json& split = splits[scene->split];
-    split["scenes"] = split["scenes"].get<int>() + 1;
-    for (const DatasetPicture& picture : scene->pictures) {
-      const auto shown = static_cast<int>(
-          std::count_if(picture.markers.begin(), picture.markers.end(),
-                        [](const MarkerLabel& label) { return label.visible.Area() > 0; }));
-      split["pictures"] = split["pictures"].get<int>() + 1;
-      split["markers"] = split["markers"].get<int>() + shown;
+// Counts over all results, one at a time.
+Json HeaderOf(const DatasetPlan& plan) {
+  const DatasetConfig& config = plan.Config();
+  std::map<std::string, std::array<int64_t, 3>> counts;  // scenes, pictures, markers
+  for (const std::string& split : config.splits) counts[split] = {};
+  for (size_t i = 0; i < plan.Tasks().size(); ++i) {
+    const DatasetScene scene = plan.Read(i);
+    auto& [scenes, pictures, markers] = counts[scene.split];
+    ++scenes;
+    for (const DatasetPicture& picture : scene.pictures) {
       ++pictures;
-      markers += shown;
+      markers += std::count_if(picture.markers.begin(), picture.markers.end(),
+                               [](const MarkerLabel& label) { return label.visible.Area() > 0; });
     }
+  }
+  Json splits = Json::object();
+  int64_t all_pictures = 0, all_markers = 0;
+  for (const auto& [split, count] : counts) {
+    const auto& [scenes, pictures, markers] = count;
+    splits[split] = {{"scenes", scenes}, {"pictures", pictures}, {"markers", markers}};
+    all_pictures += pictures;
+    all_markers += markers;
   }
   return {{"schema", kIndexSchema},
           {"version", RETROLUX_VERSION},
-          {"name", dataset.config.name},
-          {"description", dataset.config.description},
-          {"licence", dataset.config.licence},
-          {"seed", dataset.config.seed},
-          {"spp", dataset.samples_per_pixel},
+          {"name", config.name},
+          {"description", config.description},
+          {"licence", config.licence},
+          {"seed", config.seed},
+          {"spp", plan.Recording().samples_per_pixel},
           {"units", "px, mm, deg, s, e-"},
           {"pixel_origin", "center"},
           {"axes",
@@ -85,88 +68,89 @@ Json HeaderOf(const Dataset& dataset) {
            "down, z forward, x_camera = R x_world + t; marker: z along the outward normal; masks: "
            "COCO's run lengths, column by column"},
           {"splits", splits},
-          {"pictures", pictures},
-          {"markers", markers}};
+          {"pictures", all_pictures},
+          {"markers", all_markers}};
+}
+
+// Writes the config and its masks into the folder. What was made of another text is no index of it.
+void CopyPlan(const DatasetConfig& config, const fs::path& folder) {
+  CopyMasks(config, folder);
+  const fs::path copy = folder / kDatasetConfigFile;
+  const std::string text = ReadTextFile(config.file);
+  if (fs::exists(copy) && ReadTextFile(copy) != text) fs::remove(folder / kIndexFile);
+  WriteTextFile(copy, text);
 }
 
 }  // namespace
 
-Json DatasetScene::ToJson() const {
-  Json list = Json::array();
-  for (const DatasetPicture& picture : pictures) list.push_back(picture.ToJson());
-  return {{"scene", name}, {"split", split}, {"nuisances", nuisances}, {"pictures", list}};
+size_t DatasetState::ScenesDone() const {
+  return static_cast<size_t>(std::count(done.begin(), done.end(), true));
 }
 
-DatasetScene DatasetScene::FromJson(const Json& json) {
-  DatasetScene scene{json.at("scene"), json.at("split"), json.at("nuisances"), {}};
-  for (const Json& picture : json.at("pictures"))
-    scene.pictures.push_back(DatasetPicture::FromJson(picture));
-  return scene;
-}
-
-size_t Dataset::ScenesDone() const {
-  return static_cast<size_t>(std::count_if(scenes.begin(), scenes.end(),
-                                           [](const auto& scene) { return scene.has_value(); }));
-}
-
-void PlanDataset(const fs::path& config_file, const fs::path& folder) {
+void PlanDataset(const fs::path& config_file, const fs::path& folder, const RecordChoice& choice) {
   const DatasetScenes scenes(ReadDatasetConfig(config_file));
   scenes.Draw(0);  // what can't be drawn shows here, not after hours
-  const std::string text = ReadTextFile(config_file);
-  const fs::path copy = folder / kConfigFile;
-  if (fs::exists(copy) && ReadTextFile(copy) != text) {
-    throw InputError::At(copy, "", "the plan of another dataset",
-                         "another --out, or the config that this folder was planned with");
-  }
+  const RecordOptions recording = RecordingOf(scenes.Config(), folder, choice);
+  CheckSameWork(TaskStore(folder, kDatasetStudy, DatasetInputs(scenes, recording)));
   EnsureWritableFolder(folder);
-  CopyMasks(scenes.Config(), folder);
-  WriteTextFile(copy, text);
-  DatasetRunOptions none;
-  none.chosen = [](size_t) { return false; };
+  CopyPlan(scenes.Config(), folder);
+  DatasetRunOptions none{choice, [](size_t) { return false; }, {}};
   RecordTimes times;
   RunDataset(folder, none, NoProgress(), times);
 }
 
-Dataset RunDataset(const fs::path& folder, const DatasetRunOptions& options, Progress& progress,
-                   RecordTimes& times) {
-  const fs::path config = folder / kConfigFile;
-  if (!fs::exists(config)) {
-    throw InputError::At(folder, "", fmt::format("no {}", kConfigFile),
-                         "a folder that `retrolux dataset plan` made");
-  }
-  const DatasetScenes scenes(ReadDatasetConfig(config));
-  const RecordOptions recording = Recording(scenes.Config(), options);
-  EnsureWritableFolder(folder / "images");
-  if (recording.keep_exr) EnsureWritableFolder(folder / "exr");
+DatasetState RunDataset(const fs::path& folder, const DatasetRunOptions& options,
+                        Progress& progress, RecordTimes& times) {
+  const DatasetPlan plan(folder, options.recording);
   TaskLoop loop;
   loop.unit = "scenes";
   loop.chosen = options.chosen;
-  loop.usable = [&](const Json& result) { return PicturesAreThere(result, folder); };
-  TaskManifest manifest(folder, "dataset", InputsOf(scenes, recording));
-  const std::vector<Json> results = manifest.Run(
-      "scenes", TasksOf(scenes.Config()),
+  loop.until = options.until;
+  loop.usable = [&](const Json& result) { return plan.FaultOf(result).empty(); };
+  TaskManifest manifest(plan.Store());
+  EnsureWritableFolder(folder / "images");
+  if (plan.Recording().keep_exr) EnsureWritableFolder(folder / "exr");
+  DatasetState state;
+  state.done = manifest.Do(
+      "scenes", plan.Tasks(),
       [&](size_t task) {
-        const DrawnScene drawn = scenes.Draw(static_cast<int>(task));
+        const DrawnScene drawn = plan.Scenes().Draw(static_cast<int>(task));
         DatasetScene scene{drawn.name, drawn.split, drawn.nuisances,
-                           RecordScene(drawn, recording, folder, times)};
+                           RecordScene(drawn, plan.Recording(), folder, times)};
         return scene.ToJson();
       },
       progress, loop);
-  Dataset dataset{scenes.Config(), recording.samples_per_pixel, {}, manifest.Report()};
-  for (const Json& result : results) {
-    dataset.scenes.push_back(result.is_null() ? std::nullopt
-                                              : std::optional(DatasetScene::FromJson(result)));
-  }
-  return dataset;
+  state.tasks = manifest.Report();
+  return state;
 }
 
-void WriteDatasetIndex(const Dataset& dataset, const fs::path& folder) {
-  std::string text = HeaderOf(dataset).dump(1);
-  text.resize(text.size() - 2);  // the line with the closing brace
-  text += ",\n \"scenes\": [";
-  for (size_t i = 0; i < dataset.scenes.size(); ++i)
-    text += (i > 0 ? ",\n" : "\n") + dataset.scenes[i]->ToJson().dump();
-  WriteTextFile(folder / kIndexFile, text + "\n]}\n");
+DatasetState StateOf(const DatasetPlan& plan) {
+  DatasetState state;
+  for (size_t i = 0; i < plan.Tasks().size(); ++i) {
+    state.done.push_back(plan.HasResult(i));
+    if (state.done.back()) continue;
+    const std::string failure = plan.Failure(i);
+    if (!failure.empty())
+      state.failures.push_back(fmt::format("{} (number {}): {}", plan.Tasks()[i].name, i, failure));
+  }
+  return state;
+}
+
+void WriteDatasetIndex(const DatasetPlan& plan) {
+  AtomicFile file(plan.Folder() / kIndexFile);
+  std::ofstream stream(file.Temporary(), std::ios::binary);
+  std::string header = HeaderOf(plan).dump(1);
+  header.resize(header.size() - 2);  // the line with the closing brace
+  stream << header << ",\n \"scenes\": [";
+  for (size_t i = 0; i < plan.Tasks().size(); ++i)
+    stream << (i > 0 ? ",\n" : "\n") << plan.Read(i).ToJson().dump();
+  stream << "\n]}\n";
+  stream.close();
+  if (!stream) {
+    throw TryAgainError(fmt::format("{}: cannot write ({})", (plan.Folder() / kIndexFile).string(),
+                                    std::strerror(errno)));
+  }
+  file.Commit();
 }
 
 DatasetIndex ReadDatasetIndex(const fs::path& folder) {
@@ -175,16 +159,24 @@ DatasetIndex ReadDatasetIndex(const fs::path& folder) {
     throw InputError::At(folder, "", fmt::format("no {}", kIndexFile),
                          "a dataset whose scenes are all done (`retrolux dataset run`)");
   }
-  JsonReader json = JsonReader::FromFile(file);
-  json.Schema(kIndexSchema);
-  DatasetIndex index{json.Raw(), {}};
-  index.header.erase("scenes");
+  // Each scene is turned into its struct as it is read: as JSON all of them would take ten times
+  // the memory.
+  DatasetIndex index;
+  std::string key;
+  const auto take = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth == 1 && event == Json::parse_event_t::key) key = parsed.get<std::string>();
+    if (depth != 2 || event != Json::parse_event_t::object_end || key != "scenes") return true;
+    index.scenes.push_back(DatasetScene::FromJson(parsed));
+    return false;
+  };
   try {
-    for (const Json& scene : json.Raw().at("scenes"))
-      index.scenes.push_back(DatasetScene::FromJson(scene));
+    std::ifstream stream(file, std::ios::binary);
+    index.header = Json::parse(stream, take);
   } catch (const Json::exception& error) {
     throw InputError::At(file, "", error.what(), "an index that `retrolux dataset run` wrote");
   }
+  JsonReader::FromText(index.header.dump(), file).Schema(kIndexSchema);
+  index.header.erase("scenes");
   return index;
 }
 

@@ -108,12 +108,15 @@ DatasetPicture Record(const Stage& stage, const CameraSpec& camera,
   clock.AddTo(times.sensor);
   const std::string png = EncodeGreyPng(digital);
   picture.hash = HexHash(HashBytes(png));
+  clock.AddTo(times.encode);
   WriteTextFile(folder / picture.file, png);
   if (stage.options.keep_exr) {
-    WriteExrOf(stage, camera, ids, sparse.film, picture.exposure_s,
-               folder / "exr" / (stem + ".exr"));
+    const std::filesystem::path exr = folder / "exr" / (stem + ".exr");
+    WriteExrOf(stage, camera, ids, sparse.film, picture.exposure_s, exr);
+    picture.exr_hash = HexHash(HashBytes(ReadTextFile(exr)));
   }
-  clock.AddTo(times.encode);
+  clock.AddTo(times.write);
+  ++times.pictures;
   picture.markers =
       LabelPicture(stage.markers, stage.rays, camera, ids, sparse.film, picture.exposure_s);
   clock.AddTo(times.labels);
@@ -126,18 +129,20 @@ Json DatasetPicture::ToJson() const {
   Json labels = Json::array();
   for (const MarkerLabel& label : markers) labels.push_back(label.ToJson());
   const Vec3d& t = model.camera_from_world.translation;
-  return {{"camera", camera},
-          {"file", file},
-          {"hash", hash},
-          {"width_px", model.width},
-          {"height_px", model.height},
-          {"camera_matrix", {model.fx, 0, model.cx, 0, model.fy, model.cy, 0, 0, 1}},
-          {"distortion", model.distortion.Coefficients()},
-          {"R_camera_from_world", RowByRow(model.camera_from_world.rotation)},
-          {"t_camera_from_world_mm", {t.x(), t.y(), t.z()}},
-          {"bits", bits},
-          {"exposure_s", exposure_s},
-          {"markers", labels}};
+  Json json = {{"camera", camera},
+               {"file", file},
+               {"hash", hash},
+               {"width_px", model.width},
+               {"height_px", model.height},
+               {"camera_matrix", {model.fx, 0, model.cx, 0, model.fy, model.cy, 0, 0, 1}},
+               {"distortion", model.distortion.Coefficients()},
+               {"R_camera_from_world", RowByRow(model.camera_from_world.rotation)},
+               {"t_camera_from_world_mm", {t.x(), t.y(), t.z()}},
+               {"bits", bits},
+               {"exposure_s", exposure_s},
+               {"markers", labels}};
+  if (!exr_hash.empty()) json["exr_hash"] = exr_hash;
+  return json;
 }
 
 DatasetPicture DatasetPicture::FromJson(const Json& json) {
@@ -145,6 +150,7 @@ DatasetPicture DatasetPicture::FromJson(const Json& json) {
   picture.camera = json.at("camera");
   picture.file = json.at("file");
   picture.hash = json.at("hash");
+  picture.exr_hash = json.value("exr_hash", "");
   CameraModel& model = picture.model;
   model.name = picture.camera;
   model.width = json.at("width_px");

@@ -18,8 +18,9 @@ struct RecordOptions {
 // A picture with its labels, as a dataset holds it.
 struct DatasetPicture {
   std::string camera;
-  std::string file;  // below the dataset's folder
-  std::string hash;  // of its bytes
+  std::string file;      // below the dataset's folder
+  std::string hash;      // of its bytes
+  std::string exr_hash;  // of exr/SCENE_CAMERA.exr; empty: not kept
   CameraModel model;
   int bits = 8;
   double exposure_s = 0.0;
@@ -31,8 +32,11 @@ struct DatasetPicture {
 
 // Where the time went, s, summed over threads.
 struct RecordTimes {
-  std::atomic<double> geometry = 0.0, trace = 0.0, sensor = 0.0, encode = 0.0, labels = 0.0;
-  std::atomic<int64_t> paths = 0, traced_pixels = 0, pixels = 0;
+  std::atomic<double> geometry = 0.0, trace = 0.0, sensor = 0.0, encode = 0.0, write = 0.0,
+                      labels = 0.0;
+  std::atomic<int64_t> pictures = 0, paths = 0, traced_pixels = 0, pixels = 0;
+
+  double All() const { return geometry + trace + sensor + encode + write + labels; }
 };
 
 // Writes images/SCENE_CAMERA.png (and exr/SCENE_CAMERA.exr) below `folder`, and returns what

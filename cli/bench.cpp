@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rates.h"
-#include "cli/commands.h"
+#include "cli/run_json.h"
 
 namespace retrolux::cli {
 
@@ -21,7 +21,7 @@ std::string Short(double rate) {
 
 int RunBench(const BenchCommand& command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
-  const int threads = global.threads > 0 ? global.threads : AvailableThreads();
+  const int threads = ThreadsOf(global).threads;
   const std::vector<Rate> rates = MeasureRates(command.seconds, threads, *progress);
   nlohmann::json summary = {{"schema", "retrolux/bench-1"},
                             {"version", RETROLUX_VERSION},

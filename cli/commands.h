@@ -29,10 +29,12 @@ struct GlobalOptions {
   uint64_t NoiseSeed() const { return noise_seed.value_or(seed); }
 };
 
-// Exit codes; 1 (our fault), 75 (try again) and 130/143 (interrupted) are main.cpp's.
+// Exit codes; 1 (our fault) is main.cpp's, 128 + signal (129, 130, 143) core/interrupt.h's.
 inline constexpr int kExitGood = 0;
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitCheckFailed = 3;
+inline constexpr int kExitTasksFailed = 4;
+inline constexpr int kExitTryAgain = 75;
 
 // What the chosen subcommand does; returns the exit code.
 using Run = std::function<int()>;

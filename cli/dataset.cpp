@@ -1,12 +1,13 @@
-// retrolux dataset plan CONFIG --out DIR | run DIR | status DIR | export DIR
+// retrolux dataset plan CONFIG --out DIR | run DIR | status DIR | verify DIR | merge DIR... |
+// export DIR
+#include "cli/dataset.h"
+
 #include <fmt/format.h>
 
 #include "analysis/bop.h"
 #include "analysis/coco.h"
 #include "analysis/dataset_card.h"
 #include "analysis/dataset_csv.h"
-#include "cli/run_json.h"
-#include "cli/task_choice.h"
 
 namespace retrolux::cli {
 
@@ -15,119 +16,28 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-struct PlanCommand {
-  fs::path config, out;
-};
-
-struct RunCommand {
-  fs::path folder;
-  std::string shard, tasks;
-  int samples_per_pixel = 0;
-  bool keep_exr = false;
-};
-
 struct ExportCommand {
   fs::path folder;
   std::string format;
 };
 
-Json StateJson(const Dataset& dataset) {
-  return {{"scenes", dataset.scenes.size()},
-          {"done", dataset.ScenesDone()},
-          {"missing", dataset.scenes.size() - dataset.ScenesDone()}};
+// What renders the same files again, however this folder came to be.
+std::string CommandOf(const DatasetPlan& plan) {
+  std::string options;
+  if (plan.Recording().samples_per_pixel != plan.Config().samples_per_pixel)
+    options += fmt::format(" --spp {}", plan.Recording().samples_per_pixel);
+  if (plan.Recording().keep_exr) options += " --keep-exr";
+  return fmt::format("retrolux dataset plan config.json --out DIR{}; retrolux dataset run DIR",
+                     options);
 }
 
-std::string StateText(const Dataset& dataset) {
-  return fmt::format("{} of {} scenes are done", dataset.ScenesDone(), dataset.scenes.size());
-}
-
-DatasetRunOptions RunOptionsOf(const RunCommand& command) {
-  DatasetRunOptions options;
-  if (command.samples_per_pixel > 0) options.samples_per_pixel = command.samples_per_pixel;
-  options.keep_exr = command.keep_exr;
-  if (!command.shard.empty()) options.chosen = ParseShard(command.shard);
-  if (!command.tasks.empty()) options.chosen = ParseTasks(command.tasks);
-  return options;
-}
-
-int RunPlan(const PlanCommand& command, const GlobalOptions& global) {
-  PlanDataset(command.config, command.out);
-  const DatasetConfig config = ReadDatasetConfig(command.config);
-  PrintResult(global, {{"out", command.out.string()}, {"scenes", config.scenes}},
-              fmt::format("{}: {} scenes planned; retrolux dataset run {}", command.out.string(),
-                          config.scenes, command.out.string()));
-  return kExitGood;
-}
-
-// What one picture cost, ms of all threads together.
-Json Costs(const RecordTimes& times, int64_t pictures) {
-  const auto each = [&](double seconds) {
-    return pictures > 0 ? 1e3 * seconds / static_cast<double>(pictures) : 0.0;
-  };
-  return {{"geometry", each(times.geometry)},
-          {"trace", each(times.trace)},
-          {"sensor", each(times.sensor)},
-          {"encode", each(times.encode)},
-          {"labels", each(times.labels)}};
-}
-
-double Share(int64_t part, int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
-int64_t PixelsOfAPicture(const Dataset& dataset) {
-  for (const auto& scene : dataset.scenes) {
-    if (!scene || scene->pictures.empty()) continue;
-    const CameraModel& model = scene->pictures.front().model;
-    return static_cast<int64_t>(model.width) * model.height;
-  }
-  return 1;
-}
-
-Json Figures(const Dataset& dataset, const RecordTimes& times, double seconds) {
-  const int64_t pictures = times.pixels / PixelsOfAPicture(dataset);
-  return {
-      {"pictures", pictures},
-      {"pictures_per_minute", 60.0 * static_cast<double>(pictures) / seconds},
-      {"tasks", {{"done_before", dataset.tasks.done_before}, {"done_now", dataset.tasks.done_now}}},
-      {"cost_ms", Costs(times, pictures)},
-      {"traced_share", Share(times.traced_pixels, times.pixels)},
-      {"paths_per_pixel", Share(times.paths, times.pixels)}};
-}
-
-int RunRun(const RunCommand& command, const GlobalOptions& global) {
-  const auto progress = MakeProgress(global);
-  const StudyRun run(global);
-  RecordTimes times;
-  const Dataset dataset = RunDataset(command.folder, RunOptionsOf(command), *progress, times);
-  for (const std::string& warning : dataset.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
-  const double seconds = run.Seconds();
-  const Json figures = Figures(dataset, times, seconds);
-  if (dataset.IsDone()) {
-    WriteDatasetIndex(dataset, command.folder);
-    WriteDatasetCard(ReadDatasetIndex(command.folder), command.folder, global.command_line);
-  }
-  run.Write(command.folder, figures);
-  Json summary = StateJson(dataset);
-  summary.update(figures);
-  summary["seconds"] = seconds;
-  std::string text = StateText(dataset) + fmt::format("; {} pictures in {:.1f} s ({:.0f} a minute)",
-                                                      figures["pictures"].get<int64_t>(), seconds,
-                                                      figures["pictures_per_minute"].get<double>());
-  if (dataset.IsDone()) text += "\ncard: " + (command.folder / "card.md").string();
+int RunStatus(const fs::path& folder, const GlobalOptions& global) {
+  const DatasetState state = StateOf(DatasetPlan(folder));
+  Json summary = StateJson(state);
+  summary["failures"] = state.failures;
+  std::string text = StateText(state);
+  for (const std::string& failure : state.failures) text += "\nfailed: " + failure;
   PrintResult(global, summary, text);
-  return kExitGood;
-}
-
-int RunStatus(const RunCommand& command, const GlobalOptions& global) {
-  DatasetRunOptions options = RunOptionsOf(command);
-  options.chosen = [](size_t) { return false; };
-  RecordTimes times;
-  const Dataset dataset = RunDataset(command.folder, options, NoProgress(), times);
-  for (const std::string& warning : dataset.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
-  PrintResult(global, StateJson(dataset), StateText(dataset));
   return kExitGood;
 }
 
@@ -144,42 +54,48 @@ int RunExport(const ExportCommand& command, const GlobalOptions& global) {
   return kExitGood;
 }
 
-void AddRunOptions(CLI::App& sub, RunCommand& command) {
-  sub.add_option("folder", command.folder, "that `dataset plan` made")->required();
-  sub.add_option("--spp", command.samples_per_pixel,
-                 "samples per pixel; default: the config's. Other samples, another set of results")
-      ->check(CLI::Range(1, 1 << 16));
-  sub.add_flag("--keep-exr", command.keep_exr, "keep all channels of each picture in exr/");
+}  // namespace
+
+void WriteIndexAndCard(const DatasetPlan& plan) {
+  WriteDatasetIndex(plan);
+  WriteDatasetCard(ReadDatasetIndex(plan.Folder()), plan.Folder(), CommandOf(plan));
 }
 
-}  // namespace
+Json StateJson(const DatasetState& state) {
+  return {{"scenes", state.done.size()},
+          {"done", state.ScenesDone()},
+          {"missing", state.done.size() - state.ScenesDone()}};
+}
+
+std::string StateText(const DatasetState& state) {
+  return fmt::format("{} of {} scenes are done", state.ScenesDone(), state.done.size());
+}
+
+void AddRecording(CLI::App& sub, RecordChoice& recording) {
+  sub.add_option("--spp", recording.samples_per_pixel,
+                 "samples per pixel; default: the folder's, else the config's")
+      ->check(CLI::Range(1, 1 << 16));
+  sub.add_flag("--keep-exr,!--no-keep-exr", recording.keep_exr,
+               "keep all channels of each picture in exr/");
+}
+
+void AddFolder(CLI::App& sub, fs::path& folder) {
+  sub.add_option("folder", folder, "that `dataset plan` made")->required();
+}
 
 void SetUpDataset(CLI::App& app, const GlobalOptions& global, Run& run) {
   CLI::App* dataset =
       app.add_subcommand("dataset", "Sets of labelled pictures, drawn from a config");
+  SetUpDatasetPlan(*dataset, global, run);
+  SetUpDatasetRun(*dataset, global, run);
 
-  auto plan = std::make_shared<PlanCommand>();
-  CLI::App* sub = dataset->add_subcommand("plan", "Lists the scenes of a config; renders nothing");
-  sub->add_option("config", plan->config, "what to draw from (docs/datasets.md)")->required();
-  sub->add_option("--out", plan->out, "folder of the dataset")->required();
-  sub->callback(
-      [plan, &global, &run] { run = [plan, &global] { return RunPlan(*plan, global); }; });
-
-  auto command = std::make_shared<RunCommand>();
-  sub = dataset->add_subcommand("run", "Renders the scenes that are not done, with their labels");
-  AddRunOptions(*sub, *command);
-  CLI::Option* shard =
-      sub->add_option("--shard", command->shard, "i/n: every n-th scene, i from 1");
-  sub->add_option("--tasks", command->tasks, "scenes by number, from 0, e.g. 2,4,10-20")
-      ->excludes(shard);
-  sub->callback(
-      [command, &global, &run] { run = [command, &global] { return RunRun(*command, global); }; });
-
-  auto status = std::make_shared<RunCommand>();
-  sub = dataset->add_subcommand("status", "How many scenes are done");
-  AddRunOptions(*sub, *status);
+  auto status = std::make_shared<fs::path>();
+  CLI::App* sub = dataset->add_subcommand("status", "How many scenes are done, and which failed");
+  AddFolder(*sub, *status);
   sub->callback(
       [status, &global, &run] { run = [status, &global] { return RunStatus(*status, global); }; });
+
+  SetUpDatasetVerify(*dataset, global, run);
 
   auto exported = std::make_shared<ExportCommand>();
   sub = dataset->add_subcommand("export", "The labels in other programs' forms");

@@ -48,7 +48,7 @@ std::string NameOfForeign(const DetectionsFile& file, const std::vector<std::str
 Json Rates(const std::string& method, size_t pictures, const IdentificationTimes& times,
            const GlobalOptions& global) {
   const auto count = static_cast<double>(pictures);
-  const int threads = global.threads > 0 ? global.threads : AvailableThreads();
+  const int threads = ThreadsOf(global).threads;
   return {{"method", method},
           {"identify_ms", 1e3 * times.identify_s / count},
           {"pictures_per_second", threads * count / times.identify_s},

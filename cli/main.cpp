@@ -1,16 +1,19 @@
 // retrolux: one program, a subcommand a file. Only here exceptions become exit codes:
-// 0 good, 1 our fault, 2 the user's input, 3 a check failed, 75 try again.
+// 0 good, 1 our fault, 2 the user's input, 3 a check failed, 4 some tasks failed, 75 try again,
+// 129, 130, 143 interrupted.
 #include <fmt/core.h>
 
 #include <charconv>
+#include <csignal>
 
 #include "cli/commands.h"
 #include "core/error.h"
+#include "core/interrupt.h"
+#include "core/supervisor.h"
 
 namespace {
 
 constexpr int kExitOurFault = 1;
-constexpr int kExitTryAgain = 75;
 
 // One line, whatever the text holds.
 std::string OneLine(std::string text) {
@@ -39,13 +42,18 @@ int Guarded(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run
   } catch (const retrolux::InputError& error) {
     fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
     return retrolux::cli::kExitBadInput;
+  } catch (const retrolux::TasksFailed& error) {
+    fmt::print(stderr, "retrolux: {}:\n", error.what());
+    for (const std::string& failure : error.Failures())
+      fmt::print(stderr, "  {}\n", OneLine(failure));
+    return retrolux::cli::kExitTasksFailed;
   } catch (const retrolux::TryAgainError& error) {
     fmt::print(stderr, "retrolux: {}; try again when that is mended\n", OneLine(error.what()));
-    return kExitTryAgain;
+    return retrolux::cli::kExitTryAgain;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,
                "retrolux: not enough memory; try again with fewer threads or a smaller picture\n");
-    return kExitTryAgain;
+    return retrolux::cli::kExitTryAgain;
   } catch (const std::exception& error) {
     fmt::print(stderr, "retrolux: internal error, please report it: {}\n", error.what());
     return kExitOurFault;
@@ -60,6 +68,7 @@ int main(int argc, char** argv) {
   global.command_line = "retrolux";
   for (int i = 1; i < argc; ++i) global.command_line += std::string(" ") + argv[i];
   Run run;
+  Run long_run;  // of tasks, so that it can go on after a crash
   CLI::App app{
       "Pictures of retro-reflective markers as real cameras record them, and what to learn from "
       "them."};
@@ -90,9 +99,9 @@ int main(int argc, char** argv) {
   SetUpMaterial(app, global, run);
   SetUpGoniometer(app, global, run);
   SetUpStereo(app, global, run);
-  SetUpStudy(app, global, run);
+  SetUpStudy(app, global, long_run);
   SetUpTags(app, global, run);
-  SetUpDataset(app, global, run);
+  SetUpDataset(app, global, long_run);
   SetUpEvaluate(app, global, run);
   SetUpValidate(app, global, run);
   try {
@@ -106,7 +115,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
     return kExitBadInput;
   }
-  if (!run) {
+  if (!run && !long_run) {
     std::vector<std::string> names;
     const CLI::App* last = &app;
     while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
@@ -114,5 +123,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "retrolux: no subcommand; expected one of {}\n", retrolux::JoinNames(names));
     return kExitBadInput;
   }
+  // A file that grows beyond its limit is a failed write, as on a full disk, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (long_run) return retrolux::Supervise([&] { return Guarded(global, long_run); });
+  retrolux::EndOnSignals(retrolux::BlockEndingSignals());
   return Guarded(global, run);
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "cli/commands.h"
+#include "cli/run_json.h"
 
 namespace retrolux::cli {
 
@@ -92,7 +92,10 @@ class Bar : public DrawnProgress {
 
 class JsonLines : public DrawnProgress {
  public:
-  JsonLines() : DrawnProgress(5.0) {}
+  explicit JsonLines(const ThreadLimit& threads) : DrawnProgress(5.0) {
+    const nlohmann::json line = {{"threads", threads.threads}, {"threads_from", threads.source}};
+    fmt::print(stderr, "{}\n", line.dump());
+  }
 
  protected:
   void Draw(bool last) override {
@@ -113,7 +116,7 @@ class Silence : public Progress {
 }  // namespace
 
 std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global) {
-  if (global.progress == "json") return std::make_unique<JsonLines>();
+  if (global.progress == "json") return std::make_unique<JsonLines>(ThreadsOf(global));
   if (global.quiet || global.progress == "none" || ::isatty(STDERR_FILENO) == 0)
     return std::make_unique<Silence>();
   return std::make_unique<Bar>();

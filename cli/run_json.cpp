@@ -18,6 +18,18 @@ std::string UtcNow() {
 
 }  // namespace
 
+nlohmann::json TasksJson(const TaskReport& report) {
+  return {{"done_before", report.done_before},
+          {"done_now", report.done_now},
+          {"done_elsewhere", report.done_elsewhere},
+          {"out_of_time", report.out_of_time}};
+}
+
+ThreadLimit ThreadsOf(const GlobalOptions& global) {
+  if (global.threads > 0) return {global.threads, "--threads"};
+  return UsableThreads();
+}
+
 StudyRun::StudyRun(const GlobalOptions& global)
     : global_(global), started_(UtcNow()), start_(std::chrono::steady_clock::now()) {}
 
@@ -35,7 +47,8 @@ void StudyRun::Write(const std::filesystem::path& folder, const nlohmann::json& 
                         {"noise_seed", global_.NoiseSeed()},
                         {"started", started_},
                         {"seconds", Seconds()},
-                        {"threads", global_.threads > 0 ? global_.threads : AvailableThreads()}};
+                        {"threads", ThreadsOf(global_).threads},
+                        {"threads_from", ThreadsOf(global_).source}};
   run.update(figures);
   WriteTextFile(folder / "run.json", run.dump(2) + "\n");
 }

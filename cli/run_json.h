@@ -5,8 +5,16 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "core/task_manifest.h"
+#include "core/thread_limit.h"
 
 namespace retrolux::cli {
+
+// What has become of a study's tasks, for run.json and --json.
+nlohmann::json TasksJson(const TaskReport& report);
+
+// The threads that a command works on, and why.
+ThreadLimit ThreadsOf(const GlobalOptions& global);
 
 // Times a study from its making.
 class StudyRun {

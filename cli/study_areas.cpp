@@ -62,7 +62,7 @@ int RunStudyAreas(StudyAreasCommand command, const GlobalOptions& global) {
   run.Write(
       command.out,
       {{"areas", study.rows.size()},
-       {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
+       {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = AreaSummary(study);
   summary["report"] = report.string();

@@ -122,7 +122,7 @@ int RunStudyHotspot(StudyHotspotCommand command, const GlobalOptions& global) {
   run.Write(
       command.out,
       {{"views", study.tasks.done_before + study.tasks.done_now},
-       {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
+       {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   const std::string tasks = study.tasks.Text();
   PrintResult(global, HotspotSummary(study),

@@ -63,7 +63,7 @@ int RunStudyLayout(StudyLayoutCommand command, const GlobalOptions& global) {
   run.Write(
       command.out,
       {{"poses", study.options.poses.size()},
-       {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
+       {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = LayoutSummary(study);
   summary["report"] = report.string();

@@ -40,7 +40,7 @@ nlohmann::json Figures(const MarkerStudy& study, double seconds) {
   return {{"pictures", study.results.size()},
           {"pictures_rendered", study.composed},
           {"pictures_per_minute", 60.0 * PicturesNow(study) / seconds},
-          {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}},
+          {"tasks", TasksJson(study.tasks)},
           {"times",
            {{"background_wall", t.background},
             {"pictures_wall", t.pictures},

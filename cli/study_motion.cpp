@@ -49,7 +49,7 @@ int RunStudyMotion(StudyMotionCommand command, const GlobalOptions& global) {
       command.out,
       {{"frames", study.frames.size()},
        {"identify_ms", study.identify_ms},
-       {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
+       {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   const std::string tasks = study.tasks.Text();
   PrintResult(global, MotionSummary(study),

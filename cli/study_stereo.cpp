@@ -54,7 +54,7 @@ int RunStudyStereo(StudyStereoCommand command, const GlobalOptions& global) {
   run.Write(
       command.out,
       {{"pairs", study.tasks.done_before + study.tasks.done_now},
-       {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}});
+       {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = StereoSummary(study);
   const std::string tasks = study.tasks.Text();

@@ -139,7 +139,7 @@ nlohmann::json Figures(const VaultStudy& study) {
       {"buffers", rates.buffers_made},
       {"buffers_asked", rates.buffers_asked},
       {"buffers_per_second", static_cast<double>(rates.buffers_made) / rates.seconds},
-      {"tasks", {{"done_before", study.tasks.done_before}, {"done_now", study.tasks.done_now}}}};
+      {"tasks", TasksJson(study.tasks)}};
 }
 
 // One room after the other; what a mask shows is kept from one to the next.

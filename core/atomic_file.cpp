@@ -5,8 +5,13 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <regex>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -26,6 +31,18 @@ namespace {
   throw InputError(message + "; expected a place that can be written to");
 }
 
+// The temporary files there are. Whoever makes, commits or removes one holds the lock.
+struct Unfinished {
+  std::mutex lock;
+  std::set<fs::path> files;
+};
+
+Unfinished& AllUnfinished() {
+  static auto* unfinished = new Unfinished;  // never destroyed: threads may outlive main
+  return *unfinished;
+}
+
+// ".STEM.PID-N.partEXT"
 fs::path TemporaryBeside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   const std::string name = fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(),
@@ -52,9 +69,13 @@ AtomicFile::AtomicFile(fs::path final_path)
     // Renaming over it would replace a device or a pipe.
     throw InputError::At(final_, "", "is no regular file", "the name of a file");
   }
+  const std::lock_guard held(AllUnfinished().lock);
+  AllUnfinished().files.insert(temporary_);
 }
 
 AtomicFile::~AtomicFile() {
+  const std::lock_guard held(AllUnfinished().lock);
+  AllUnfinished().files.erase(temporary_);
   if (committed_) return;
   std::error_code ignored;  // a destructor can do no more than try
   fs::remove(temporary_, ignored);
@@ -62,8 +83,29 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::Commit() {
   SyncFile(temporary_);
+  const std::lock_guard held(AllUnfinished().lock);
   if (std::rename(temporary_.c_str(), final_.c_str()) != 0) ThrowErrno(final_, "rename", errno);
   committed_ = true;
+}
+
+void RemoveUnfinishedFiles() {
+  AllUnfinished().lock.lock();  // for good
+  for (const fs::path& file : AllUnfinished().files) ::unlink(file.c_str());
+}
+
+void RemoveLeftovers(const fs::path& folder) {
+  static const std::regex pattern(R"(\..*\.(\d+)-\d+\.part(\.[^.]*)?)");
+  std::error_code error;
+  for (auto file = fs::recursive_directory_iterator(folder, error);
+       !error && file != fs::recursive_directory_iterator(); file.increment(error)) {
+    const std::string name = file->path().filename().string();
+    std::smatch match;
+    if (!std::regex_match(name, match, pattern)) continue;
+    const auto pid = static_cast<pid_t>(std::strtol(match[1].str().c_str(), nullptr, 10));
+    const bool gone = pid <= 0 || (::kill(pid, 0) != 0 && errno == ESRCH);
+    std::error_code ignored;
+    if (gone) fs::remove(file->path(), ignored);
+  }
 }
 
 void WriteTextFile(const fs::path& path, std::string_view text) {

@@ -27,6 +27,14 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// Removes the temporary files of all AtomicFiles, and holds up everyone who would make or commit
+// one: for a process that is about to end without running destructors.
+void RemoveUnfinishedFiles();
+
+// Removes, in the folder and below it, the temporary files of processes of this machine that are
+// gone (killed, or the machine went down).
+void RemoveLeftovers(const std::filesystem::path& folder);
+
 void WriteTextFile(const std::filesystem::path& path, std::string_view text);
 
 // The whole file. InputError if it can't be read.

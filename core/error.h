@@ -1,6 +1,7 @@
-// Three kinds of failure, three means: the user's data throw InputError, a full disk or short
-// memory throws TryAgainError, our own fault trips RETROLUX_CHECK. A normal miss is a
-// std::optional. Only cli/main.cpp catches, and turns them into exit codes.
+// Kinds of failure: the user's data throw InputError, a full disk or short memory throws
+// TryAgainError, tasks of which others are done throw TasksFailed, our own fault trips
+// RETROLUX_CHECK. A normal miss is a std::optional. Only cli/main.cpp catches, and turns them into
+// exit codes.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,6 +28,18 @@ class InputError : public std::runtime_error {
 class TryAgainError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// Of many independent tasks some failed; the others are done and kept. Exit code 4.
+class TasksFailed : public std::runtime_error {
+ public:
+  // `failures`: "NAME: what happened", one for each.
+  TasksFailed(const std::string& what, std::vector<std::string> failures)
+      : std::runtime_error(what), failures_(std::move(failures)) {}
+  const std::vector<std::string>& Failures() const { return failures_; }
+
+ private:
+  std::vector<std::string> failures_;
 };
 
 // Of `names`, the one closest to `name` by edit distance if it is close enough to be a slip of the

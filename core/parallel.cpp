@@ -1,9 +1,10 @@
 #include "core/parallel.h"
 
-#include <sched.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "core/thread_limit.h"
 
 namespace retrolux {
 
@@ -37,20 +38,13 @@ void ParallelFor(int64_t count, const std::function<void(int64_t)>& body) {
 }
 
 LimitThreads::LimitThreads(int threads) {
-  const int limit = threads > 0 ? threads : AvailableThreads();
+  const int limit = threads > 0 ? threads : UsableThreads().threads;
   control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                      static_cast<size_t>(limit));
 }
 
 LimitThreads::~LimitThreads() {
   delete static_cast<tbb::global_control*>(control_);
-}
-
-int AvailableThreads() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof(set), &set) != 0) return 1;
-  return CPU_COUNT(&set);
 }
 
 }  // namespace retrolux

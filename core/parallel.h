@@ -26,7 +26,7 @@ Progress& NoProgress();
 // of one call stops the loop and is thrown again here.
 void ParallelFor(int64_t count, const std::function<void(int64_t)>& body);
 
-// While it lives, at most `threads` threads work (0: all that the process may use).
+// While it lives, at most `threads` threads work (0: UsableThreads).
 class LimitThreads {
  public:
   explicit LimitThreads(int threads);
@@ -37,8 +37,5 @@ class LimitThreads {
  private:
   void* control_ = nullptr;
 };
-
-// Processors that this process may run on (its affinity, not the machine's count).
-int AvailableThreads();
 
 }  // namespace retrolux

@@ -2,73 +2,8 @@
 # The command line from end to end: wrong input gives one clear line, exit code 2 and no output; the same seed gives
 # the same bytes on any number of threads. Prints a line for each case; exit 1 if one fails.
 #   cli_test.sh RETROLUX_BINARY
-# Needs node to look into JSON. All files are in a folder of its own under TMPDIR, removed at the end.
 set -u
-[ $# -eq 1 ] && [ -x "$1" ] || { echo "usage: cli_test.sh RETROLUX_BINARY" >&2; exit 2; }
-retrolux=$(realpath "$1")
-tests=$(dirname "$(realpath "$0")")
-work=$(mktemp -d "${TMPDIR:-/tmp}/retrolux_cli.XXXXXX") || exit 2
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 2
-failed=0 cases=0
-
-good() { cases=$((cases + 1)); printf 'ok    %s\n' "$1"; }
-bad() { cases=$((cases + 1)); failed=$((failed + 1)); printf 'FAIL  %s: %s\n' "$1" "$2"; }
-
-# run ARGS...: the program on files of this folder, with a limit, so that a hang is a failure (exit code 124).
-limit_s=120
-run() { timeout "$limit_s" "$retrolux" "$@" >stdout.txt 2>stderr.txt </dev/null; }
-
-# refuse NAME PATTERN OUT ARGS...: exit code 2, one line on stderr that matches PATTERN (extended, place before what was
-# found before what is expected), nothing on stdout, and nothing at OUT.
-refuse() {
-  local name=$1 pattern=$2 out=$3 code lines
-  shift 3
-  limit_s=20 run "$@"
-  code=$?
-  lines=$(wc -l <stderr.txt)
-  if [ $code -ne 2 ]; then bad "$name" "exit code $code, not 2: $(head -c 300 stderr.txt)"
-  elif [ "$lines" -ne 1 ]; then bad "$name" "$lines lines on stderr, not 1: $(head -c 300 stderr.txt | tr '\n' '|')"
-  elif ! grep -qE -- "$pattern" stderr.txt; then bad "$name" "no /$pattern/ in: $(cat stderr.txt)"
-  elif [ -s stdout.txt ]; then bad "$name" "something on stdout: $(head -c 100 stdout.txt)"
-  elif [ -e "$out" ]; then bad "$name" "output was left: $(find "$out" | head -3 | tr '\n' ' ')"
-  else good "$name"; fi
-  rm -rf "$out"
-}
-
-# succeed NAME ARGS...: exit code 0 and a silent stderr.
-succeed() {
-  local name=$1 code
-  shift
-  run "$@"
-  code=$?
-  if [ $code -ne 0 ]; then bad "$name" "exit code $code: $(head -c 300 stderr.txt)"; return 1
-  elif [ -s stderr.txt ]; then bad "$name" "on stderr: $(head -c 300 stderr.txt)"; return 1
-  else good "$name"; fi
-}
-
-# same NAME A B FILES...: the files of both folders have the same bytes.
-same() {
-  local name=$1 a=$2 b=$3 file
-  shift 3
-  for file in "$@"; do
-    [ -s "$a/$file" ] || { bad "$name" "no $a/$file"; return; }
-    cmp -s "$a/$file" "$b/$file" || { bad "$name" "$file differs"; return; }
-  done
-  good "$name"
-}
-
-# holds NAME FILE EXPRESSION: a JSON file that is valid and for which the JavaScript EXPRESSION over `json` is true.
-holds() {
-  if node -e "const json = JSON.parse(require('fs').readFileSync('$2', 'utf8')); process.exit(($3) ? 0 : 1)" >node.txt 2>&1
-  then good "$1"; else bad "$1" "not so in $2: $3 $(grep -m1 Error node.txt)"; fi
-}
-
-no_parts() {
-  local parts
-  parts=$(find . -name '*.part*')
-  if [ -z "$parts" ]; then good "$1"; else bad "$1" "$parts"; fi
-}
+. "$(dirname "$(realpath "$0")")/cli_checks.sh"
 
 # ------------------------------------------------------------------------------------------ scenes that are wrong
 mkdir scene empty
@@ -280,7 +215,7 @@ interrupt "study killed" KILL killed 3
 interrupt "study ended" TERM killed 7
 done_before=$(results killed)
 succeed "study goes on" "${long[@]}" --out killed
-grep -q "; $done_before of 18 tasks were done before" stdout.txt && good "it says what was done before" || bad "it says what was done before" "$(cat stdout.txt)"
+grep -q "; skipped $done_before of 18 tasks (done before)" stdout.txt && good "it says what was done before" || bad "it says what was done before" "$(cat stdout.txt)"
 same_as_whole "interrupted and not interrupted"
 holds "run.json: what this run did" killed/run.json "json.tasks.done_before === $done_before && json.tasks.done_now === 18 - $done_before"
 
@@ -523,7 +458,7 @@ grep '^single,camera 1,' areas1/areas.csv | awk -F, '{exit !($7 > -0.008 && $7 <
 [ -s areas1/report.html ] && good "study areas: a report" || bad "study areas: a report" "none"
 rm areas2/summary.json
 succeed "study areas again" "${areas[@]}" --out areas2
-grep -q '[0-9]* of [0-9]* tasks were done before' stdout.txt && good "nothing is done twice" || bad "nothing is done twice" "$(tail -2 stdout.txt)"
+grep -q 'skipped [0-9]* of [0-9]* tasks (done before)' stdout.txt && good "nothing is done twice" || bad "nothing is done twice" "$(tail -2 stdout.txt)"
 same "study areas again: the same tables" areas1 areas2 areas.csv summary.json
 succeed "validate, a part" validate --only "centroids,filter" --out validated --json && cp stdout.txt result.json
 holds "validate: what was measured, expected, from where" result.json 'json.schema === "retrolux/validate-1" && json.failed === 0 && json.count === json.checks.length && json.checks.length > 8 && json.checks.every((c) => c.pass && c.source && c.independent_of && Math.abs(c.measured - c.expected) <= c.tolerance)'
@@ -584,37 +519,38 @@ cat >tiny.json <<'END'
  "recording": {"size_px": [160, 120], "sensor": {"default": 1, "icx414al": 1}, "distortion_k1": -0.1},
  "distractors": {"cables": {"probability": 1}, "plate": {"probability": 0.5}}}
 END
-succeed "dataset plan" dataset plan tiny.json --out whole
-[ -s whole/manifest.json ] && [ -z "$(ls whole/images)" ] && good "dataset plan: nothing rendered" ||
-  bad "dataset plan: nothing rendered" "$(ls whole whole/images | tr '\n' ' ')"
+succeed "dataset plan" dataset plan tiny.json --out set
+[ -s set/manifest.json ] && [ -z "$(ls set/images)" ] && good "dataset plan: nothing rendered" ||
+  bad "dataset plan: nothing rendered" "$(ls set set/images | tr '\n' ' ')"
 sed 's/"standard"/"standart"/' tiny.json >wrong.json
 refuse "dataset: unknown key" '/markers: found the unknown key .standart.; expected .standard.' bad dataset plan wrong.json --out bad
 refuse "dataset run: no plan" 'no config.json; expected a folder that .retrolux dataset plan. made' bad dataset run bad
-refuse "dataset run: shard 3 of 2" '--shard 3/2: expected i/n' bad dataset run whole --shard 3/2
-refuse "dataset run: tasks" '--tasks 4-2: expected' bad dataset run whole --tasks 4-2
-refuse "dataset export: not done" 'no dataset.json; expected a dataset whose scenes are all done' bad dataset export whole --format csv
-succeed "dataset run" dataset run whole --threads 1
-holds "dataset: pictures, pixel origin" whole/dataset.json 'json.pixel_origin === "center" && json.pictures === 8 && json.scenes.length === 4 && json.markers > 8'
+refuse "dataset run: no such time" '--time-limit' bad dataset run set --time-limit soon
+refuse "dataset run: shard 3 of 2" '--shard 3/2: expected i/n' bad dataset run set --shard 3/2
+refuse "dataset run: tasks" '--tasks 4-2: expected' bad dataset run set --tasks 4-2
+refuse "dataset export: not done" 'no dataset.json; expected a dataset whose scenes are all done' bad dataset export set --format csv
+succeed "dataset run" dataset run set --threads 1
+holds "dataset: pictures, pixel origin" set/dataset.json 'json.pixel_origin === "center" && json.pictures === 8 && json.scenes.length === 4 && json.markers > 8'
 succeed "dataset: plan again" dataset plan tiny.json --out shards
 succeed "dataset plan, never run" dataset plan tiny.json --out unfinished
 for i in 2 1; do succeed "dataset run, shard $i of 2" dataset run shards --shard $i/2 --threads 2; done
-same "dataset: shards on 2 threads, the bytes of one run on 1" whole shards dataset.json contact_sheet.png $(cd whole && ls images/*.png)
+same "dataset: shards on 2 threads, the bytes of one run on 1" set shards dataset.json contact_sheet.png $(cd set && ls images/*.png)
 succeed "dataset status" --json dataset status shards
 cp stdout.txt status.json
 holds "dataset status: all done" status.json 'json.scenes === 4 && json.done === 4 && json.missing === 0'
 sed 's/"spp": 2/"spp": 3/' tiny.json >other.json
-run dataset plan other.json --out whole
-[ $? -eq 2 ] && grep -q 'the plan of another dataset' stderr.txt && good "dataset plan: another plan is refused" ||
+run dataset plan other.json --out set
+[ $? -eq 2 ] && grep -q '/config/spp was 2, is 3' stderr.txt && good "dataset plan: another plan is refused" ||
   bad "dataset plan: another plan is refused" "$(cat stderr.txt)"
-for format in coco bop csv; do succeed "dataset export $format" dataset export whole --format $format; done
+for format in coco bop csv; do succeed "dataset export $format" dataset export set --format $format; done
 if command -v python3 >/dev/null; then
-  python3 "$tests/labels_readback.py" whole >readback.txt 2>&1 && good "dataset: labels read back by Python" ||
+  python3 "$tests/labels_readback.py" set >readback.txt 2>&1 && good "dataset: labels read back by Python" ||
     bad "dataset: labels read back by Python" "$(tail -3 readback.txt | tr '\n' ' ')"
 fi
 
 # ------------------------------------------------------------------------------------------------------------ evaluate
-succeed "evaluate: both methods" evaluate whole --split all --threads 1 --out scores1
-succeed "evaluate on 2 threads" evaluate whole --split all --threads 2 --out scores2
+succeed "evaluate: both methods" evaluate set --split all --threads 1 --out scores1
+succeed "evaluate on 2 threads" evaluate set --split all --threads 2 --out scores2
 same "evaluate: the same on 2 threads" scores1 scores2 evaluation.json misses.csv false_positives.csv
 holds "evaluate: the contract's keys" scores1/evaluation.json \
   'json.method === "robust" && json.pictures === 8 && json.markers > 8 && json.found <= json.markers && json.misnamed >= 0 && json.false_positives >= 0 && "precision" in json && json.recall === json.found / json.markers && "centroid_rms_px" in json && "centroid_bias_px" in json && Array.isArray(json.by.incidence_deg) && Array.isArray(json.by.size_px)'
@@ -636,9 +572,9 @@ for method in edges robust; do
 done
 refuse "evaluate: no dataset" 'scene: no dataset.json; expected a dataset whose scenes are all done' bad evaluate scene --out bad
 refuse "evaluate: unfinished dataset" 'no dataset.json; expected' bad evaluate unfinished --out bad
-refuse "evaluate: no pictures in the split" '--split val: no pictures' bad evaluate whole --split val --out bad
-refuse "evaluate: unknown method" "no method 'guess'; expected one of edges, robust" bad evaluate whole --method guess --out bad
-refuse "evaluate: a method twice" '--method edges twice' bad evaluate whole --method edges --method edges --out bad
+refuse "evaluate: no pictures in the split" '--split val: no pictures' bad evaluate set --split val --out bad
+refuse "evaluate: unknown method" "no method 'guess'; expected one of edges, robust" bad evaluate set --method guess --out bad
+refuse "evaluate: a method twice" '--method edges twice' bad evaluate set --method edges --method edges --out bad
 refuse "evaluate: no such file" 'none.json' bad evaluate eight --split all --detections none.json --out bad
 sed 's/"center"/"corner"/' found.json >wrong.json
 refuse "evaluate: another pixel origin" '/pixel_origin: found string "corner"' bad evaluate eight --split all --detections wrong.json --out bad
@@ -648,7 +584,7 @@ node -e 'const f = JSON.parse(fs.readFileSync("found.json")); f.images.pop(); fs
 refuse "evaluate: a picture is missing" '/images: 1 of the 4 pictures are missing' bad evaluate eight --split all --detections wrong.json --out bad
 node -e 'const f = JSON.parse(fs.readFileSync("found.json")); f.images[2].file = "other.png"; fs.writeFileSync("wrong.json", JSON.stringify(f))'
 refuse "evaluate: a picture of another dataset" "/images/2/file: 'other.png'; expected a picture of the dataset" bad evaluate eight --split all --detections wrong.json --out bad
-cp whole/images/scene-00000_camera-1.png eight/images/scene-00000_camera-2.png
+cp set/images/scene-00000_camera-1.png eight/images/scene-00000_camera-2.png
 refuse "evaluate: a picture was changed" 'another picture than the one that was labelled' bad evaluate eight --split all --method edges --out bad
 
 # -------------------------------------------------------------------------------------------------------------- stereo
@@ -749,7 +685,7 @@ holds "study layout on the face: what the search promised" layout-face/layout.js
 refuse "study layout: no mask" "no object 'mask' that moves with the pose" bad study layout --scene sphere --out bad
 
 # --------------------------------------------------------------------------------------------------------------- help
-for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset export" evaluate stereo "study stereo" "study motion" "study layout" "study hotspot"; do
+for command in "" bench render scene "scene list" "scene show" "scene export" mask "mask make" "mask sample" "mask import" "mask reconstruct" classify study "study markers" "study vault" material "material fit" goniometer dataset "dataset plan" "dataset run" "dataset status" "dataset verify" "dataset merge" "dataset export" evaluate stereo "study stereo" "study motion" "study layout" "study hotspot"; do
   # shellcheck disable=SC2086
   succeed "help of retrolux $command" $command --help
   [ -s stdout.txt ] || bad "help of retrolux $command" "nothing on stdout"
@@ -757,5 +693,4 @@ done
 succeed "--version" --version
 no_parts "no temporary file is left"
 
-echo "cli_test: $cases cases, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/sampler.h"
 #include "core/sampling.h"
+#include "core/thread_limit.h"
 #include "tests/message_of.h"
 #include "tests/own_folder.h"
 #include "tests/statistics.h"
@@ -29,6 +30,47 @@ fs::path Scratch(const std::string& name) {
 CameraModel ThesisCamera() {
   return CameraModel::FromFieldOfView("c", 640, 480, 12.18, 9.15,
                                       LookAt({1265, 600, 1109}, Vec3d::Zero(), Vec3d::UnitX()));
+}
+
+// A made-up hierarchy of control groups.
+class CgroupTest : public testing::Test {
+ protected:
+  void Put(const std::string& file, const std::string& text) const {
+    const fs::path path = OwnFolder() / file;
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+  }
+};
+
+TEST_F(CgroupTest, TheSmallestLimitOfTheGroupAndThoseAboveItCounts) {
+  Put("two/cpu.max", "350000 100000\n");
+  Put("two/a/cpu.max", "max 100000\n");
+  Put("two/a/b/cpu.max", "800000 100000\n");
+  EXPECT_DOUBLE_EQ(CgroupCpus("0::/a/b\n", OwnFolder() / "two").value(), 3.5);
+  EXPECT_FALSE(CgroupCpus("0::/elsewhere\n", OwnFolder() / "none"));
+}
+
+TEST_F(CgroupTest, VersionOneKnowsQuotaAndPeriod) {
+  Put("one/cpu,cpuacct/job/cpu.cfs_quota_us", "150000\n");
+  Put("one/cpu,cpuacct/job/cpu.cfs_period_us", "100000\n");
+  Put("one/cpu,cpuacct/cpu.cfs_quota_us", "-1\n");
+  Put("one/cpu,cpuacct/cpu.cfs_period_us", "100000\n");
+  const std::string membership = "5:memory:/job\n4:cpu,cpuacct:/job\n";
+  EXPECT_DOUBLE_EQ(CgroupCpus(membership, OwnFolder() / "one").value(), 1.5);
+}
+
+TEST(UsableThreads, AsManyAsSlurmGivesButNoMoreThanThereAre) {
+  const int all = UsableThreads().threads;
+  ::setenv("SLURM_CPUS_PER_TASK", "1", 1);
+  EXPECT_EQ(UsableThreads().threads, 1);
+  if (all > 1) {
+    EXPECT_EQ(UsableThreads().Text(), "1 thread (SLURM_CPUS_PER_TASK)");
+  }
+  for (const char* text : {"100000", "0", "two", ""}) {
+    ::setenv("SLURM_CPUS_PER_TASK", text, 1);
+    EXPECT_EQ(UsableThreads().threads, all) << text;
+  }
+  ::unsetenv("SLURM_CPUS_PER_TASK");
 }
 
 TEST(CameraModel, FieldOfViewOfTheThesisGivesTenMicrometrePixels) {

@@ -15,6 +15,7 @@
 #include "analysis/bop.h"
 #include "analysis/coco.h"
 #include "analysis/dataset_csv.h"
+#include "analysis/dataset_merge.h"
 #include "analysis/picture_labels.h"
 #include "analysis/signal_noise.h"
 #include "analysis/sparse_film.h"
@@ -381,11 +382,27 @@ class TinyDataset : public ::testing::Test {
     ExportBop(ReadDatasetIndex(folder_), folder_);
   }
 
-  static Dataset Run(const fs::path& folder, const DatasetRunOptions& options) {
+  static DatasetState Run(const fs::path& folder, const DatasetRunOptions& options) {
     RecordTimes times;
-    Dataset dataset = RunDataset(folder, options, NoProgress(), times);
-    if (dataset.IsDone()) WriteDatasetIndex(dataset, folder);
-    return dataset;
+    DatasetState state = RunDataset(folder, options, NoProgress(), times);
+    if (state.IsDone()) WriteDatasetIndex(DatasetPlan(folder));
+    return state;
+  }
+  // Scene 0 and 2 of the tiny dataset, in a folder of its own.
+  static fs::path HalfOf(const std::string& name) {
+    const fs::path folder = OwnFolder() / name;
+    PlanDataset(OwnFolder() / "given.json", folder);
+    DatasetRunOptions options;
+    options.chosen = [](size_t scene) { return scene % 2 == 0; };
+    Run(folder, options);
+    return folder;
+  }
+  static void ExpectTheWholeSet(const fs::path& folder) {
+    EXPECT_EQ(ReadTextFile(folder / "dataset.json"), ReadTextFile(folder_ / "dataset.json"));
+    for (const auto& file : fs::directory_iterator(folder_ / "images")) {
+      EXPECT_EQ(ReadTextFile(folder / "images" / file.path().filename()),
+                ReadTextFile(file.path()));
+    }
   }
   static Json Read(const fs::path& file) { return Json::parse(ReadTextFile(file)); }
 
@@ -552,29 +569,83 @@ TEST_F(TinyDataset, CsvHasARowForEachLabel) {
 
 // Two shards, the second of which does again what is lost between them, give the bytes of one run.
 TEST_F(TinyDataset, ShardsGiveTheBytesOfOneRun) {
-  const fs::path folder = OwnFolder() / "shards";
-  PlanDataset(OwnFolder() / "given.json", folder);
-  DatasetRunOptions options;
-  options.chosen = [](size_t scene) { return scene % 2 == 0; };
-  const Dataset half = Run(folder, options);
-  EXPECT_EQ(half.ScenesDone(), 2u);
+  const fs::path folder = HalfOf("shards");
+  EXPECT_EQ(StateOf(DatasetPlan(folder)).ScenesDone(), 2u);
   EXPECT_FALSE(fs::exists(folder / "dataset.json"));
-  fs::remove(folder / half.scenes[0]->pictures[0].file);
-  const Dataset whole = Run(folder, {});
+  fs::remove(folder / DatasetPlan(folder).Read(0).pictures[0].file);
+  const DatasetState whole = Run(folder, {});
   EXPECT_EQ(whole.tasks.done_before, 1);
   EXPECT_EQ(whole.tasks.done_now, 3);
-  EXPECT_EQ(ReadTextFile(folder / "dataset.json"), ReadTextFile(folder_ / "dataset.json"));
-  for (const auto& scene : whole.scenes) {
-    for (const DatasetPicture& picture : scene->pictures)
-      EXPECT_EQ(ReadTextFile(folder / picture.file), ReadTextFile(folder_ / picture.file));
-  }
+  ExpectTheWholeSet(folder);
 }
 
-TEST_F(TinyDataset, AFolderWithAnotherPlanIsRefused) {
+TEST_F(TinyDataset, FoldersOfOnePlanAreMerged) {
+  const fs::path first = HalfOf("first"), second = OwnFolder() / "second";
+  PlanDataset(OwnFolder() / "given.json", second);
+  DatasetRunOptions options;
+  options.chosen = [](size_t scene) { return scene != 0; };
+  Run(second, options);
+  MergeDatasets(first, {second}, NoProgress());
+  const DatasetFaults faults = VerifyDataset(first, NoProgress());
+  EXPECT_EQ(faults.checked, 4u);
+  EXPECT_TRUE(faults.damaged.empty() && faults.missing.empty());
+  WriteDatasetIndex(DatasetPlan(first));
+  ExpectTheWholeSet(first);
+}
+
+TEST_F(TinyDataset, WhatIsDamagedIsNotMerged) {
+  const fs::path first = HalfOf("merged"), second = OwnFolder() / "damaged";
+  PlanDataset(OwnFolder() / "given.json", second);
+  DatasetRunOptions options;
+  options.chosen = [](size_t scene) { return scene == 1; };
+  Run(second, options);
+  WriteTextFile(second / DatasetPlan(second).Read(1).pictures[1].file, "no picture");
+  EXPECT_THAT(MessageOf([&] { MergeDatasets(first, {second}, NoProgress()); }),
+              HasSubstr("scene-00001 (number 1): images/scene-00001_camera-5.png: not what was"));
+  EXPECT_EQ(StateOf(DatasetPlan(first)).ScenesDone(), 2u);
+}
+
+TEST_F(TinyDataset, VerifyFindsWhatIsDamagedAndRunMakesItAgain) {
+  const fs::path folder = OwnFolder() / "verified";
+  PlanDataset(OwnFolder() / "given.json", folder);
+  Run(folder, {});
+  const DatasetPlan plan(folder);
+  WriteTextFile(folder / plan.Read(0).pictures[0].file, "no picture");
+  fs::remove(folder / plan.Read(1).pictures[1].file);
+  const fs::path result = plan.Store().ResultFile(plan.Store().Place(plan.Tasks()[2]));
+  fs::resize_file(result, fs::file_size(result) / 2);
+  fs::remove(plan.Store().ResultFile(plan.Store().Place(plan.Tasks()[3])));
+  const DatasetFaults faults = VerifyDataset(folder, NoProgress());
+  EXPECT_EQ(faults.checked, 3u);
+  EXPECT_THAT(faults.damaged,
+              testing::ElementsAre(
+                  "scene-00000 (number 0): images/scene-00000_camera-1.png: not what was written",
+                  "scene-00001 (number 1): images/scene-00001_camera-5.png: missing",
+                  HasSubstr("scene-00002 (number 2): " + result.string() + ": damaged")));
+  EXPECT_THAT(faults.missing, testing::ElementsAre("scene-00003 (number 3)"));
+  EXPECT_EQ(Run(folder, {}).tasks.done_now, 4);
+  EXPECT_TRUE(VerifyDataset(folder, NoProgress()).damaged.empty());
+  ExpectTheWholeSet(folder);
+  std::string index = ReadTextFile(folder / "dataset.json");
+  const size_t place = index.find("\"incidence_deg\":") + 17;
+  index[place] = index[place] == '1' ? '2' : '1';
+  WriteTextFile(folder / "dataset.json", index);
+  EXPECT_THAT(VerifyDataset(folder, NoProgress()).damaged,
+              testing::ElementsAre("dataset.json: not what the results say"));
+}
+
+TEST_F(TinyDataset, AnotherPlanIsRefusedAndToldWhatChanged) {
   std::string other = kTiny;
   other.replace(other.find("\"seed\": 7"), 9, "\"seed\": 8");
   EXPECT_THAT(MessageOf([&] { PlanDataset(WriteConfig(OwnFolder() / "other", other), folder_); }),
-              HasSubstr("the plan of another dataset"));
+              HasSubstr("/config/seed was 7, is 8"));
+  RecordTimes times;
+  DatasetRunOptions options;
+  options.recording.samples_per_pixel = 3;
+  EXPECT_THAT(MessageOf([&] { RunDataset(folder_, options, NoProgress(), times); }),
+              HasSubstr("/spp was 2, is 3"));
+  EXPECT_THAT(MessageOf([&] { MergeDatasets(folder_, {OwnFolder() / "nowhere"}, NoProgress()); }),
+              HasSubstr("no config.json"));
 }
 
 }  // namespace

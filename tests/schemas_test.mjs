@@ -245,6 +245,11 @@ function checkDataset(schemas, work) {
   run(work, 'dataset', 'run', 'dataset');
   run(work, 'evaluate', 'dataset', '--split', 'all', '--out', 'evaluation');
   checkRefused(schemas, 'dataset', TINY_DATASET, BAD_DATASETS);
+  // A folder in a picture's place makes its scene fail.
+  run(work, 'dataset', 'plan', 'tiny-dataset.json', '--out', 'dataset-failed');
+  fs.mkdirSync(path.join(work, 'dataset-failed', 'images', 'scene-00000_camera-1.png'));
+  const failed = spawnSync(binary, ['dataset', 'run', 'dataset-failed'], { cwd: work });
+  if (failed.status !== 4) violations.push(`a scene that fails: exit code ${failed.status}, not 4`);
 }
 
 /** Two cameras that look at the oval's markers, and what is made of their pictures. */

@@ -1,15 +1,22 @@
 #include "core/task_manifest.h"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/supervisor.h"
 #include "tests/message_of.h"
 
 namespace retrolux {
@@ -32,7 +39,9 @@ class TaskManifestTest : public testing::Test {
   // In the order of their names.
   std::vector<fs::path> ResultFiles() const {
     std::vector<fs::path> files;
-    for (const auto& file : fs::directory_iterator(folder_ / "tasks")) files.push_back(file.path());
+    for (const auto& file : fs::directory_iterator(folder_ / "tasks")) {
+      if (IsResultName(file.path().filename())) files.push_back(file.path());
+    }
     std::sort(files.begin(), files.end());
     return files;
   }
@@ -91,7 +100,7 @@ TEST_F(TaskManifestTest, ASecondRunWorksNotAtAllAndGivesTheSame) {
   const Outcome second = RunAll(folder_, Tasks(5));
   EXPECT_EQ(second.worked, 0);
   EXPECT_EQ(second.results, first.results);
-  EXPECT_EQ(second.report.Text(), "5 of 5 tasks were done before");
+  EXPECT_EQ(second.report.Text(), "skipped 5 of 5 tasks (done before)");
 }
 
 TEST_F(TaskManifestTest, GoesOnAfterAPartialRun) {
@@ -106,6 +115,7 @@ TEST_F(TaskManifestTest, GoesOnAfterAPartialRun) {
 TEST_F(TaskManifestTest, ResultsThatAreNoneAreDoneAgainWithAWarning) {
   const std::vector<Json> expected = RunAll(folder_, Tasks(5)).results;
   const std::vector<fs::path> files = ResultFiles();
+  ASSERT_EQ(files.size(), 5u);
   const std::string text = ReadTextFile(files[0]);
   std::string flipped = text;
   flipped[text.find("\"root\":") + 9] ^= 1;  // a digit of the number
@@ -125,18 +135,33 @@ TEST_F(TaskManifestTest, ResultsThatAreNoneAreDoneAgainWithAWarning) {
   EXPECT_EQ(RunAll(folder_, Tasks(5)).worked, 0);
 }
 
-TEST_F(TaskManifestTest, OtherWorkIsNotTakenOverAndLeftAlone) {
+TEST_F(TaskManifestTest, OtherWorkIsRefusedAndToldWhatChanged) {
+  const Json options = {{"seed", 1}, {"camera", {{"spp", 8}, {"size", {640, 480}}}}};
+  RunAll(folder_, Tasks(4), {}, options);
+  const std::string manifest = ReadTextFile(folder_ / "manifest.json");
+  Json changed = options;
+  changed["camera"]["spp"] = 4;
+  changed["gain"] = 2;
+  EXPECT_EQ(
+      MessageOf([&] { RunAll(folder_, Tasks(4), {}, changed); }),
+      folder_.string() +
+          ": holds results of other work; options: /camera/spp was 8, is 4; /gain was not, is "
+          "2; expected another folder, or the options that this one was begun with");
+  EXPECT_THAT(MessageOf([&] { TaskManifest(folder_, "cubes", options); }),
+              HasSubstr("study: was \"roots\", is \"cubes\""));
+  EXPECT_EQ(ReadTextFile(folder_ / "manifest.json"), manifest);
+  EXPECT_EQ(RunAll(folder_, Tasks(4), {}, options).worked, 0);
+  for (const fs::path& file : ResultFiles()) fs::remove(file);
+  EXPECT_EQ(RunAll(folder_, Tasks(4), {}, changed).worked, 4);  // there is nothing to mix with
+}
+
+TEST_F(TaskManifestTest, FewerTasksLeaveTheOthersAlone) {
   RunAll(folder_, Tasks(4));
-  const Outcome other_options = RunAll(folder_, Tasks(4), {}, {{"seed", 2}});
-  EXPECT_EQ(other_options.worked, 4);
-  EXPECT_EQ(other_options.report.others, 4);
-  EXPECT_EQ(other_options.report.Text(), "4 results of other work left alone");
   const Outcome fewer = RunAll(folder_, Tasks(3));
   EXPECT_EQ(fewer.worked, 0);
-  EXPECT_EQ(fewer.report.others, 5);
-  TaskManifest other_study(folder_, "cubes", {{"seed", 1}});
-  other_study.Run("values", Tasks(4), Value);
-  EXPECT_EQ(other_study.Report().done_now, 4);
+  EXPECT_EQ(fewer.report.others, 1);
+  EXPECT_EQ(fewer.report.Text(),
+            "skipped 3 of 3 tasks (done before); 1 results of other work left alone");
 }
 
 TEST_F(TaskManifestTest, NamesAndTheOrderOfKeysDefineNothing) {
@@ -160,10 +185,19 @@ TEST_F(TaskManifestTest, AFailureKeepsAllOthers) {
       return Value(task);
     };
     TaskManifest manifest(folder, "roots", {{"seed", 1}});
-    EXPECT_EQ(MessageOf([&] { manifest.Run("values", Tasks(40), work, NoProgress(), loop); }),
-              "task 'task 3' failed (2 of 40 did; what is done is kept): no light in 3");
+    try {
+      manifest.Run("values", Tasks(40), work, NoProgress(), loop);
+      ADD_FAILURE() << "no failure";
+    } catch (const TasksFailed& failed) {
+      EXPECT_STREQ(failed.what(), "2 of 40 tasks failed; what is done is kept");
+      EXPECT_THAT(failed.Failures(), testing::ElementsAre("task 3 (number 3): no light in 3",
+                                                          "task 7 (number 7): no light in 7"));
+    }
     EXPECT_EQ(manifest.Report().done_now, 38);
+    const StoredTask third = manifest.Store().Place(Tasks(40)[3]);
+    EXPECT_EQ(manifest.Store().Failure(third), "no light in 3");
     EXPECT_EQ(RunAll(folder, Tasks(40)).worked, 2);
+    EXPECT_EQ(manifest.Store().Failure(third), "");
   }
 }
 
@@ -185,7 +219,7 @@ TEST_F(TaskManifestTest, AFullDiskStopsTheStage) {
 TEST_F(TaskManifestTest, AResultThatJsonCannotHoldIsNotKept) {
   TaskManifest manifest(folder_, "roots", {{"seed", 1}});
   const auto work = [](size_t) { return Json(std::numeric_limits<double>::quiet_NaN()); };
-  EXPECT_THROW(manifest.Run("values", Tasks(1), work), std::runtime_error);
+  EXPECT_THROW(manifest.Run("values", Tasks(1), work), TasksFailed);
   EXPECT_TRUE(ResultFiles().empty());
 }
 
@@ -197,7 +231,9 @@ TEST_F(TaskManifestTest, ThreadsChangeNothing) {
     RunAll(folder, Tasks(50));
     std::string text = ReadTextFile(folder / "manifest.json");
     std::set<fs::path> files;
-    for (const auto& file : fs::directory_iterator(folder / "tasks")) files.insert(file.path());
+    for (const auto& file : fs::directory_iterator(folder / "tasks")) {
+      if (IsResultName(file.path().filename())) files.insert(file.path());
+    }
     for (const fs::path& file : files) text += file.filename().string() + ReadTextFile(file);
     texts.push_back(text);
   }
@@ -252,7 +288,7 @@ TEST_F(TaskManifestTest, ProgressCountsWhatIsLeft) {
   RunAll(folder_, Tasks(2));
   CountingProgress tasks;
   TaskManifest(folder_, "roots", {{"seed", 1}}).Run("values", Tasks(5), Value, tasks);
-  EXPECT_EQ(tasks.text, "values, 2 of 5 tasks were done before: 3 tasks");
+  EXPECT_EQ(tasks.text, "values, skipped 2 of 5 (done before): 3 tasks");
   EXPECT_EQ(tasks.done, 3);
   EXPECT_TRUE(tasks.ended);
 
@@ -265,7 +301,7 @@ TEST_F(TaskManifestTest, ProgressCountsWhatIsLeft) {
     return Value(task);
   };
   TaskManifest(folder_, "roots", {{"seed", 1}}).Run("values", Tasks(6), work, pictures, loop);
-  EXPECT_EQ(pictures.text, "values, 5 of 6 tasks were done before: 12 pictures");
+  EXPECT_EQ(pictures.text, "values, skipped 5 of 6 (done before): 12 pictures");
   EXPECT_EQ(pictures.done, 12);
 }
 
@@ -273,16 +309,123 @@ TEST_F(TaskManifestTest, OnlyWhatIsChosenIsDone) {
   TaskLoop loop;
   loop.chosen = [](size_t task) { return task % 2 == 1; };
   TaskManifest manifest(folder_, "roots", {{"seed", 1}});
-  const std::vector<Json> results = manifest.Run("values", Tasks(4), Value, NoProgress(), loop);
-  EXPECT_TRUE(results[0].is_null());
-  EXPECT_EQ(results[1], Value(1));
-  EXPECT_TRUE(results[2].is_null());
+  const std::vector<bool> half = {false, true, false, true};
+  EXPECT_EQ(manifest.Do("values", Tasks(4), Value, NoProgress(), loop), half);
   EXPECT_EQ(manifest.Report().done_now, 2);
+  EXPECT_EQ(manifest.Store().Read(manifest.Store().Place(Tasks(4)[1])), Value(1));
 
   loop.chosen = [](size_t) { return false; };
   TaskManifest again(folder_, "roots", {{"seed", 1}});
-  EXPECT_EQ(again.Run("values", Tasks(4), Value, NoProgress(), loop), results);
+  EXPECT_EQ(again.Do("values", Tasks(4), Value, NoProgress(), loop), half);
   EXPECT_EQ(again.Report().done_before, 2);
+}
+
+TEST_F(TaskManifestTest, NothingIsBegunWhenTheTimeIsOver) {
+  TaskLoop loop;
+  loop.parallel = false;
+  const auto start = std::chrono::steady_clock::now();
+  loop.until = start + std::chrono::milliseconds(50);
+  TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+  const auto work = [](size_t task) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    return Value(task);
+  };
+  const std::vector<bool> done = manifest.Do("values", Tasks(8), work, NoProgress(), loop);
+  EXPECT_TRUE(done[0]);
+  EXPECT_FALSE(done[7]);
+  EXPECT_EQ(manifest.Report().done_now + manifest.Report().out_of_time, 8);
+  EXPECT_THAT(manifest.Report().Text(), HasSubstr("the time was over before"));
+}
+
+// Two manifests in one process are as two processes: their locks are of two open files.
+TEST_F(TaskManifestTest, TwoRunsAtOnceShareTheTasks) {
+  constexpr int kTasks = 60;
+  std::atomic<int64_t> worked = 0;
+  std::array<TaskReport, 2> reports;
+  std::array<std::vector<Json>, 2> results;
+  const auto run = [&](size_t i) {
+    TaskLoop loop;
+    loop.parallel = false;
+    TaskManifest manifest(folder_, "roots", {{"seed", 1}});
+    const auto work = [&](size_t task) {
+      ++worked;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      return Value(task);
+    };
+    results[i] = manifest.Run("values", Tasks(kTasks), work, NoProgress(), loop);
+    reports[i] = manifest.Report();
+  };
+  std::thread other(run, 1);
+  run(0);
+  other.join();
+  EXPECT_EQ(worked, kTasks);
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0].size(), size_t{kTasks});
+  for (const TaskReport& report : reports)
+    EXPECT_EQ(report.done_before + report.done_now + report.done_elsewhere, kTasks);
+  EXPECT_GT(reports[0].done_now, 0);
+  EXPECT_GT(reports[1].done_now, 0);
+}
+
+// A process that is gone has left a temporary file; one of a process that lives is not touched.
+TEST_F(TaskManifestTest, LeftoversOfDeadProcessesAreRemoved) {
+  RunAll(folder_, Tasks(1));
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  const fs::path dead = folder_ / "tasks" / fmt::format(".x.{}-0.part.json", child);
+  const fs::path alive = folder_ / "tasks" / fmt::format(".x.{}-99.part.json", ::getpid());
+  const fs::path other = folder_ / "tasks" / ".x.part.json";
+  for (const fs::path& file : {dead, alive, other}) std::ofstream(file) << "half";
+  RunAll(folder_, Tasks(1));
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(alive));
+  EXPECT_TRUE(fs::exists(other));
+}
+
+// Supervised work of twenty tasks, one of which crashes it each time. Returns its exit code; what
+// failed is in failures.txt.
+int RunWithACrash(const fs::path& folder, bool parallel) {
+  fs::create_directories(folder);
+  return Supervise([&] {
+    TaskLoop loop;
+    loop.parallel = parallel;
+    TaskManifest manifest(folder, "roots", {{"seed", 1}});
+    const auto work = [](size_t task) {
+      if (task == 5) std::raise(SIGSEGV);
+      return Value(task);
+    };
+    try {
+      manifest.Run("values", Tasks(20), work, NoProgress(), loop);
+    } catch (const TasksFailed& failed) {
+      WriteTextFile(folder / "failures.txt", fmt::format("{}", fmt::join(failed.Failures(), "\n")));
+      return 4;
+    }
+    return 0;
+  });
+}
+
+// "threadsafe": in a new process, as the supervisor must come before threads.
+TEST_F(TaskManifestTest, ATaskThatCrashesIsNamedAndTheOthersAreDone) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(std::exit(RunWithACrash(folder_, false)), testing::ExitedWithCode(4), "crashed");
+  EXPECT_EQ(ReadTextFile(folder_ / "failures.txt"),
+            "task 5 (number 5): crashed (Segmentation fault)");
+  EXPECT_EQ(RunAll(folder_, Tasks(20)).worked, 1);
+}
+
+TEST_F(TaskManifestTest, ACrashAmongSeveralTasksIsFoundByTryingEachAlone) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(std::exit(RunWithACrash(folder_, true)), testing::ExitedWithCode(4), "crashed");
+  EXPECT_EQ(ReadTextFile(folder_ / "failures.txt"),
+            "task 5 (number 5): crashed (Segmentation fault)");
+  EXPECT_EQ(RunAll(folder_, Tasks(20)).worked, 1);
+}
+
+TEST_F(TaskManifestTest, ACrashOutsideOfTasksIsNotTriedAgain) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto crash = [] { return std::raise(SIGABRT); };
+  EXPECT_EXIT(std::exit(Supervise(crash)), testing::ExitedWithCode(1), "please report it");
 }
 
 TEST_F(TaskManifestTest, AFolderThatCannotBeIsRefused) {

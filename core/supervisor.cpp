@@ -1,0 +1,169 @@
+#include "core/supervisor.h"
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+
+namespace retrolux {
+
+namespace {
+
+// More tasks at once, or more crashes, than this are not kept apart.
+constexpr size_t kSlots = 1024;
+
+struct Crashed {
+  uint64_t id = 0;
+  int signal = 0;
+};
+
+// In memory that the processes share. 0: an empty slot.
+struct Board {
+  std::array<std::atomic<uint64_t>, kSlots> at_work;
+  std::array<uint64_t, kSlots> suspects;
+  std::array<Crashed, kSlots> crashed;
+};
+
+Board* board = nullptr;
+
+uint64_t Number(const std::string& id) {
+  uint64_t number = 0;
+  std::from_chars(id.data(), id.data() + id.size(), number, 16);
+  return number;
+}
+
+Board* MakeBoard() {
+  void* memory =
+      ::mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw TryAgainError("not enough memory");
+  return new (memory) Board();
+}
+
+bool AddCrashed(uint64_t id, int signal) {
+  for (Crashed& slot : board->crashed) {
+    if (slot.id != 0) continue;
+    slot = {id, signal};
+    return true;
+  }
+  return false;
+}
+
+bool AddSuspect(uint64_t id) {
+  for (uint64_t& slot : board->suspects) {
+    if (slot == id) return true;
+    if (slot != 0) continue;
+    slot = id;
+    return true;
+  }
+  return false;
+}
+
+// Draws the lesson from a child that died of a signal. False: there is none, it must not be tried
+// again.
+bool LearnFrom(int signal) {
+  std::vector<uint64_t> ids;
+  for (std::atomic<uint64_t>& slot : board->at_work) {
+    const uint64_t id = slot.exchange(0);
+    if (id != 0) ids.push_back(id);
+  }
+  if (ids.empty()) return false;
+  if (ids.size() == 1) return AddCrashed(ids.front(), signal);
+  bool kept = true;
+  for (const uint64_t id : ids) kept = AddSuspect(id) && kept;
+  return kept;
+}
+
+pid_t StartChild(const sigset_t& signals, const sigset_t& before,
+                 const std::function<int()>& work) {
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) throw TryAgainError(fmt::format("no new process ({})", std::strerror(errno)));
+  if (child > 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no work goes on whose supervisor was killed
+  if (::getppid() != parent) ::_exit(1);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  BlockEndingSignals();
+  EndOnSignals(signals);
+  const int code = work();
+  // Not exit: libraries that made threads when they were loaded wait for them at exit, and a child
+  // has only the thread that forked.
+  std::fflush(nullptr);
+  ::_exit(code);
+}
+
+// Waits for its end and hands signals on. Its status as of waitpid.
+int WaitFor(pid_t child, const sigset_t& signals) {
+  sigset_t all = signals;
+  ::sigaddset(&all, SIGCHLD);
+  int status = 0;
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    const int signal = ::sigwaitinfo(&all, nullptr);
+    if (signal > 0 && signal != SIGCHLD) ::kill(child, signal);
+  }
+  return status;
+}
+
+}  // namespace
+
+int Supervise(const std::function<int()>& work) {
+  board = MakeBoard();
+  sigset_t before, child_ends;
+  ::pthread_sigmask(SIG_SETMASK, nullptr, &before);
+  ::sigemptyset(&child_ends);
+  ::sigaddset(&child_ends, SIGCHLD);
+  ::pthread_sigmask(SIG_BLOCK, &child_ends, nullptr);
+  const sigset_t signals = BlockEndingSignals();
+  while (true) {
+    const int status = WaitFor(StartChild(signals, before, work), signals);
+    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    const int signal = WTERMSIG(status);
+    const bool again = LearnFrom(signal);
+    fmt::print(stderr, "retrolux: crashed ({}){}\n", ::strsignal(signal),
+               again ? "; going on without what it was at" : "; please report it");
+    if (!again) return 1;
+  }
+}
+
+TaskWatch::TaskWatch(const std::string& id) : slot_(kSlots) {
+  if (board == nullptr) return;
+  for (slot_ = 0; slot_ < kSlots; ++slot_) {
+    uint64_t empty = 0;
+    if (board->at_work[slot_].compare_exchange_strong(empty, Number(id))) return;
+  }
+}
+
+TaskWatch::~TaskWatch() {
+  if (slot_ < kSlots) board->at_work[slot_] = 0;
+}
+
+bool TaskWatch::IsSuspect(const std::string& id) {
+  if (board == nullptr) return false;
+  const uint64_t number = Number(id);
+  for (const uint64_t suspect : board->suspects) {
+    if (suspect == number) return true;
+  }
+  return false;
+}
+
+std::string TaskWatch::Crash(const std::string& id) {
+  if (board == nullptr) return "";
+  const uint64_t number = Number(id);
+  for (const Crashed& crash : board->crashed) {
+    if (crash.id == number) return fmt::format("crashed ({})", ::strsignal(crash.signal));
+  }
+  return "";
+}
+
+}  // namespace retrolux

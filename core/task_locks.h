@@ -1,0 +1,33 @@
+// Who is at which task of a folder. Several processes, on one machine or on several that share the
+// folder, may work on the same tasks; none does what another one is at. The locks are the kernel's
+// (fcntl, open file description): they are gone with their process, however it ends.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace retrolux {
+
+class TaskLocks {
+ public:
+  // Opens FOLDER/tasks/.lock. InputError if it can't be made.
+  explicit TaskLocks(const std::filesystem::path& folder);
+  ~TaskLocks();
+  TaskLocks(const TaskLocks&) = delete;
+  TaskLocks& operator=(const TaskLocks&) = delete;
+
+  // True: the task is this process's until Release. False: another process is at it. Always true on
+  // a file system without locks (then work may be done twice; it gives the same files).
+  bool TryHold(const std::string& id) const;
+  void Release(const std::string& id) const;
+
+  // True if no other process had opened these locks when this one did.
+  bool CameFirst() const { return first_; }
+
+ private:
+  int fd_ = -1;
+  bool first_ = false;
+};
+
+}  // namespace retrolux
