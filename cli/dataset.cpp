@@ -75,8 +75,9 @@ void AddRecording(CLI::App& sub, RecordChoice& recording) {
   sub.add_option("--spp", recording.samples_per_pixel,
                  "samples per pixel; default: the folder's, else the config's")
       ->check(CLI::Range(1, 1 << 16));
-  sub.add_flag("--keep-exr,!--no-keep-exr", recording.keep_exr,
-               "keep all channels of each picture in exr/");
+  sub.add_flag_callback(
+      "--keep-exr", [&recording] { recording.keep_exr = true; },
+      "keep all channels of each picture in exr/; default: as the folder has it");
 }
 
 void AddFolder(CLI::App& sub, fs::path& folder) {

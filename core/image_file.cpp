@@ -97,7 +97,9 @@ void WriteExr(const fs::path& file, const ExrImage& image) {
     spec.channelformats.push_back(std::holds_alternative<IdPlane>(channel.plane) ? OIIO::TypeUInt32
                                                                                  : OIIO::TypeFloat);
   }
-  spec.attribute("compression", "zip");
+  // Of a picture of ours with 24 channels (bench/compression_bench): 484 ms and 13.4 MiB; level 4
+  // takes 544 ms and is 0.9 % smaller, piz 484 ms and 14 % smaller, but slower to read.
+  spec.attribute("compression", "zip:1");
   // OpenImageIO would write the time of day: the same picture must have the same bytes.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [name, value] : image.attributes) spec.attribute(name, value);
@@ -191,7 +193,11 @@ std::string EncodeGreyPng(const DigitalImage& image) {
   const bool wide = image.bits > 8;
   OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1,
                        wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
+  // Of a noisy picture of 640 x 480 (bench/compression_bench): 3.7 ms and 75 KiB; all filters 6.1 ms
+  // and 82, level 6 23 ms and 58, none 0.5 ms and 301.
+  constexpr int kFilterSub = 16;
   spec.attribute("png:compressionLevel", 1);
+  spec.attribute("png:filter", kFilterSub);
   if (wide) return EncodePng(spec, OIIO::TypeUInt16, image.dn.data.data());
   const std::vector<uint8_t> bytes(image.dn.data.begin(), image.dn.data.end());
   return EncodePng(spec, OIIO::TypeUInt8, bytes.data());

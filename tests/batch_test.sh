@@ -181,6 +181,14 @@ says "it says what changed" stderr.txt '/config/spp was 4, is 5'
 exits "other samples are refused" 2 dataset run part1 --spp 7
 says "it says what changed" stderr.txt '/spp was 4, is 7'
 
+sed 's/"scenes": 24/"scenes": 2/' batch.json >two.json
+run dataset plan two.json --out channels --keep-exr
+exits "what is planned with --keep-exr" 0 dataset run channels
+[ "$(find channels/exr -name '*.exr' | wc -l)" = 6 ] && good "keeps all channels" || bad "keeps all channels" "$(ls channels/exr)"
+truncate -s -100 channels/exr/scene-00001_camera-2.exr
+exits "verify: a damaged EXR file" 3 dataset verify channels
+says "it says which" stderr.txt 'scene-00001 \(number 1\): exr/scene-00001_camera-2.exr: not what was written'
+
 plan limited
 exits "the time is over" 75 dataset run limited --threads 1 --time-limit 0.2s
 says "it says so" stdout.txt 'the time was over before [0-9]+ of 24'
