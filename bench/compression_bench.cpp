@@ -1,7 +1,8 @@
-// Which compression for EXR and PNG? Writes a picture of ours with each and prints time and size, so that the choices in
-// core/image_file.cpp can be judged on pictures that matter.
+// Which compression for EXR and PNG? Writes a picture of ours with each and prints time and size,
+// so that the choices in core/image_file.cpp can be judged on pictures that matter.
 //   compression_bench FILE.exr FILE.png
-// Files go to TMPDIR. Times are the least of five, ms of one thread, writing included, without sync.
+// Files go to TMPDIR. Times are the least of five, ms of one thread, writing included, without
+// sync.
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 

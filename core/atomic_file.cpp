@@ -59,6 +59,16 @@ void SyncFile(const fs::path& path) {
   if (result != 0) ThrowErrno(path, "sync", error);
 }
 
+// Dead ones that nobody has waited for (zombies) are gone, too.
+bool IsAlive(pid_t pid) {
+  if (pid <= 0 || (::kill(pid, 0) != 0 && errno == ESRCH)) return false;
+  std::ifstream stream(fmt::format("/proc/{}/stat", pid));
+  std::string text;
+  std::getline(stream, text);
+  const size_t state = text.rfind(") ");  // after the name, which may hold anything
+  return state == std::string::npos || text.size() < state + 3 || text[state + 2] != 'Z';
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path final_path)
@@ -102,9 +112,8 @@ void RemoveLeftovers(const fs::path& folder) {
     std::smatch match;
     if (!std::regex_match(name, match, pattern)) continue;
     const auto pid = static_cast<pid_t>(std::strtol(match[1].str().c_str(), nullptr, 10));
-    const bool gone = pid <= 0 || (::kill(pid, 0) != 0 && errno == ESRCH);
     std::error_code ignored;
-    if (gone) fs::remove(file->path(), ignored);
+    if (!IsAlive(pid)) fs::remove(file->path(), ignored);
   }
 }
 

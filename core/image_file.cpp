@@ -193,8 +193,8 @@ std::string EncodeGreyPng(const DigitalImage& image) {
   const bool wide = image.bits > 8;
   OIIO::ImageSpec spec(image.dn.width, image.dn.height, 1,
                        wide ? OIIO::TypeUInt16 : OIIO::TypeUInt8);
-  // Of a noisy picture of 640 x 480 (bench/compression_bench): 3.7 ms and 75 KiB; all filters 6.1 ms
-  // and 82, level 6 23 ms and 58, none 0.5 ms and 301.
+  // Of a noisy picture of 640 x 480 (bench/compression_bench): 3.7 ms and 75 KiB; all filters 6.1
+  // ms and 82, level 6 23 ms and 58, none 0.5 ms and 301.
   constexpr int kFilterSub = 16;
   spec.attribute("png:compressionLevel", 1);
   spec.attribute("png:filter", kFilterSub);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -60,18 +61,21 @@ bool AddCrashed(uint64_t id, int signal) {
   return false;
 }
 
+bool IsSuspected(uint64_t id) {
+  return std::find(board->suspects.begin(), board->suspects.end(), id) != board->suspects.end();
+}
+
 bool AddSuspect(uint64_t id) {
-  for (uint64_t& slot : board->suspects) {
-    if (slot == id) return true;
-    if (slot != 0) continue;
-    slot = id;
-    return true;
-  }
-  return false;
+  if (IsSuspected(id)) return true;
+  const auto empty = std::find(board->suspects.begin(), board->suspects.end(), uint64_t{0});
+  if (empty == board->suspects.end()) return false;
+  *empty = id;
+  return true;
 }
 
 // Draws the lesson from a child that died of a signal. False: there is none, it must not be tried
-// again.
+// again. Once may be somebody's kill or the machine's shortness of memory: only a suspect, which is
+// tried alone, is given up.
 bool LearnFrom(int signal) {
   std::vector<uint64_t> ids;
   for (std::atomic<uint64_t>& slot : board->at_work) {
@@ -79,7 +83,7 @@ bool LearnFrom(int signal) {
     if (id != 0) ids.push_back(id);
   }
   if (ids.empty()) return false;
-  if (ids.size() == 1) return AddCrashed(ids.front(), signal);
+  if (ids.size() == 1 && IsSuspected(ids.front())) return AddCrashed(ids.front(), signal);
   bool kept = true;
   for (const uint64_t id : ids) kept = AddSuspect(id) && kept;
   return kept;
@@ -131,7 +135,7 @@ int Supervise(const std::function<int()>& work) {
     const int signal = WTERMSIG(status);
     const bool again = LearnFrom(signal);
     fmt::print(stderr, "retrolux: crashed ({}){}\n", ::strsignal(signal),
-               again ? "; going on without what it was at" : "; please report it");
+               again ? "; going on, what it was at alone and last" : "; please report it");
     if (!again) return 1;
   }
 }
@@ -149,12 +153,7 @@ TaskWatch::~TaskWatch() {
 }
 
 bool TaskWatch::IsSuspect(const std::string& id) {
-  if (board == nullptr) return false;
-  const uint64_t number = Number(id);
-  for (const uint64_t suspect : board->suspects) {
-    if (suspect == number) return true;
-  }
-  return false;
+  return board != nullptr && IsSuspected(Number(id));
 }
 
 std::string TaskWatch::Crash(const std::string& id) {

@@ -1,6 +1,7 @@
 // Work that survives a crash of one of its tasks. The work is done in a child process; when that
 // dies of a signal, another one goes on. Which tasks it was at is known from memory that both
-// share: if it was one, that task is given up, if several, each of them is tried once more, alone.
+// share: each of them is tried once more, alone and after all others, and given up if it crashes
+// then, too.
 #pragma once
 
 #include <functional>
@@ -23,7 +24,7 @@ class TaskWatch {
   TaskWatch(const TaskWatch&) = delete;
   TaskWatch& operator=(const TaskWatch&) = delete;
 
-  // Whether a process died while it was at this task and at others.
+  // Whether a process died while it was at this task: to be tried alone.
   static bool IsSuspect(const std::string& id);
   // How this task alone has made a process die, e.g. "crashed (Segmentation fault)"; else empty.
   static std::string Crash(const std::string& id);

@@ -41,12 +41,17 @@ TaskLocks::TaskLocks(const std::filesystem::path& folder) {
     throw InputError::At(file, "", fmt::format("cannot be opened ({})", std::strerror(errno)),
                          "a place that can be written to");
   }
-  first_ = Lock(fd_, F_WRLCK, kPresence);
   Lock(fd_, F_RDLCK, kPresence);
 }
 
 TaskLocks::~TaskLocks() {
   ::close(fd_);
+}
+
+bool TaskLocks::Alone() const {
+  const bool alone = Lock(fd_, F_WRLCK, kPresence);
+  Lock(fd_, F_RDLCK, kPresence);
+  return alone;
 }
 
 bool TaskLocks::TryHold(const std::string& id) const {

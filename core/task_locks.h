@@ -22,12 +22,11 @@ class TaskLocks {
   bool TryHold(const std::string& id) const;
   void Release(const std::string& id) const;
 
-  // True if no other process had opened these locks when this one did.
-  bool CameFirst() const { return first_; }
+  // Whether no other process has these locks open now.
+  bool Alone() const;
 
  private:
   int fd_ = -1;
-  bool first_ = false;
 };
 
 }  // namespace retrolux

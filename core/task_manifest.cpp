@@ -317,10 +317,13 @@ TaskManifest::TaskManifest(TaskStore store)
   CheckSameWork(store_);
   EnsureWritableFolder(store_.Folder() / "tasks");
   locks_ = std::make_unique<TaskLocks>(store_.Folder());
-  if (locks_->CameFirst()) RemoveLeftovers(store_.Folder());
+  if (locks_->Alone()) RemoveLeftovers(store_.Folder());
 }
 
-TaskManifest::~TaskManifest() = default;
+// A killed process may have held the locks still when this one began.
+TaskManifest::~TaskManifest() {
+  if (locks_->Alone()) RemoveLeftovers(store_.Folder());
+}
 
 std::vector<Json> TaskManifest::Run(const std::string& stage, const std::vector<Task>& tasks,
                                     const Work& work, Progress& progress, const TaskLoop& loop) {

@@ -98,7 +98,7 @@ kill -KILL "$(cat "$state/slurmctld.pid")"
 sleep 0.5
 start_controller || bad "the controller starts again" "$(logs)"
 for _ in 1 2 3; do
-  until_true 60 empty_queue || { echo "      cancelled: $(squeue -h -o '%i %t %r' | tr '\n' ',')"; scancel -u root; until_true 60 empty_queue; }
+  until_true 25 empty_queue || { echo "      cancelled: $(squeue -h -o '%i %t %r' | tr '\n' ',')"; scancel -u root; until_true 60 empty_queue; }
   [ -e set/dataset.json ] && break
   submit
 done
