@@ -90,7 +90,7 @@ void SetUpDatasetPlan(CLI::App& dataset, const GlobalOptions& global, Run& run) 
   sub->add_option("--out", plan->out, "folder of the dataset")->required();
   AddRecording(*sub, plan->recording);
   CLI::Option* emit = sub->add_option("--emit", plan->engine,
-                                      "write jobs/ENGINE, to be submitted: slurm, openjd, or "
+                                      "write a job, to be submitted: slurm, openjd, or "
                                       "parallel (GNU parallel). Renders three scenes to time them")
                           ->check(CLI::IsMember({"slurm", "openjd", "parallel"}));
   sub->add_option("--shards", plan->shards,

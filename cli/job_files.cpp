@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
@@ -12,6 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+
+// For schedulers, whose names have no spaces or quotes.
+std::string PlainName(std::string name) {
+  for (char& c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!plain) c = '_';
+  }
+  return name.substr(0, 100);
+}
 
 fs::path WriteScript(const fs::path& file, const std::string& text) {
   WriteTextFile(file, text);
@@ -34,7 +44,7 @@ std::vector<fs::path> WriteSlurm(const JobPlan& plan, const fs::path& folder) {
 # One shard. May be killed and run again at any time: what is done is kept.
 exec "${{RETROLUX:-retrolux}}" dataset run . --shard "$SLURM_ARRAY_TASK_ID/{1}" --progress json
 )SH",
-      plan.name, plan.shards, plan.threads);
+      PlainName(plan.name), plan.shards, plan.threads);
   const std::string merge = fmt::format(
       R"SH(#!/bin/bash
 #SBATCH --job-name={}-merge
@@ -45,7 +55,7 @@ exec "${{RETROLUX:-retrolux}}" dataset run . --shard "$SLURM_ARRAY_TASK_ID/{1}" 
 # says what is missing (exit code 4).
 exec "${{RETROLUX:-retrolux}}" dataset merge . --progress json
 )SH",
-      plan.name);
+      PlainName(plan.name));
   const std::string submit =
       R"SH(#!/bin/bash
 # Submits the shards and, after them, the merge; arguments go to both, e.g. --partition=night --time=2:00:00.
@@ -66,11 +76,12 @@ Json Action(const std::vector<std::string>& arguments) {
   return {{"actions", {{"onRun", {{"command", "{{Param.Retrolux}}"}, {"args", all}}}}}};
 }
 
-// Open Job Description, template schemas 2023-09.
-std::vector<fs::path> WriteOpenJd(const JobPlan& plan, const fs::path& folder) {
-  const Json dataset = {{"name", "Dataset"},         {"type", "PATH"},
-                        {"objectType", "DIRECTORY"}, {"dataFlow", "INOUT"},
-                        {"default", "../.."},        {"description", "The planned dataset"}};
+// Open Job Description, template schemas 2023-09. In the dataset's folder itself: the default of a
+// PATH must not lead out of the template's folder.
+std::vector<fs::path> WriteOpenJd(const JobPlan& plan) {
+  const Json dataset = {
+      {"name", "Dataset"},   {"type", "PATH"}, {"objectType", "DIRECTORY"},
+      {"dataFlow", "INOUT"}, {"default", "."}, {"description", "The planned dataset"}};
   const Json program = {{"name", "Retrolux"}, {"type", "STRING"}, {"default", "retrolux"}};
   const Json vcpus = {{"amounts", {{{"name", "amount.worker.vcpu"}, {"min", plan.threads}}}}};
   const std::string of = fmt::format("{{{{Task.Param.Shard}}}}/{}", plan.shards);
@@ -85,11 +96,11 @@ std::vector<fs::path> WriteOpenJd(const JobPlan& plan, const fs::path& folder) {
                       {"dependencies", {{{"dependsOn", "Render"}}}},
                       {"script", Action({"merge", "{{Param.Dataset}}", "--progress", "json"})}};
   const Json job = {{"specificationVersion", "jobtemplate-2023-09"},
-                    {"name", plan.name},
+                    {"name", PlainName(plan.name)},
                     {"parameterDefinitions", {dataset, program}},
                     {"steps", {render, merge}}};
-  WriteTextFile(folder / "template.json", job.dump(2) + "\n");
-  return {folder / "template.json"};
+  WriteTextFile(plan.folder / "template.json", job.dump(2) + "\n");
+  return {plan.folder / "template.json"};
 }
 
 std::vector<fs::path> WriteParallel(const JobPlan& plan, const fs::path& folder) {
@@ -111,10 +122,10 @@ exec "${{RETROLUX:-retrolux}}" dataset merge .
 }  // namespace
 
 std::vector<fs::path> WriteJobFiles(const JobPlan& plan, const std::string& engine) {
+  if (engine == "openjd") return WriteOpenJd(plan);
   const fs::path folder = plan.folder / "jobs" / engine;
   EnsureWritableFolder(folder);
   if (engine == "slurm") return WriteSlurm(plan, folder);
-  if (engine == "openjd") return WriteOpenJd(plan, folder);
   return WriteParallel(plan, folder);
 }
 

@@ -1,4 +1,5 @@
-// Jobs of existing engines that run a dataset's shards: files below DIR/jobs/, to be submitted.
+// Jobs of existing engines that run a dataset's shards: files below DIR/jobs/, or
+// DIR/template.json, to be submitted.
 #pragma once
 
 #include <filesystem>

@@ -19,7 +19,9 @@ const values = new Map();
 for (const p of job.parameterDefinitions) {
   known(p, p.name, ["name", "type", "description", "default", "objectType", "dataFlow", "allowedValues", "userInterface", "minLength", "maxLength"]);
   if (!/^[A-Za-z_][A-Za-z0-9_]{0,63}$/.test(p.name)) throw Error(`parameter name ${p.name}`);
-  // A default PATH is relative to the template's folder.
+  // A default PATH is relative to the template's folder, and openjd-model refuses one that leads out of it.
+  if (p.type === "PATH" && !`${resolve(dirname(file), p.default)}/`.startsWith(`${resolve(dirname(file))}/`))
+    throw Error(`${p.name}: references a path outside of the template's folder`);
   values.set(`Param.${p.name}`, p.type === "PATH" ? resolve(dirname(file), p.default) : p.default);
 }
 values.set("Param.Retrolux", process.env.RETROLUX ?? values.get("Param.Retrolux"));
