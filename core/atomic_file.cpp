@@ -5,12 +5,13 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <mutex>
-#include <regex>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -59,6 +60,18 @@ void SyncFile(const fs::path& path) {
   if (result != 0) ThrowErrno(path, "sync", error);
 }
 
+// The process that a temporary file of that name is of; nothing for other names.
+std::optional<pid_t> OwnerOf(const std::string& name) {
+  const size_t part = name.rfind(".part");
+  if (!name.starts_with('.') || part == std::string::npos || part == 0) return std::nullopt;
+  const size_t dot = name.rfind('.', part - 1);
+  pid_t pid = 0;
+  const char* end = name.data() + part;
+  const auto [rest, error] = std::from_chars(name.data() + dot + 1, end, pid);
+  if (error != std::errc{} || rest == end || *rest != '-') return std::nullopt;
+  return pid;
+}
+
 // Dead ones that nobody has waited for (zombies) are gone, too.
 bool IsAlive(pid_t pid) {
   if (pid <= 0 || (::kill(pid, 0) != 0 && errno == ESRCH)) return false;
@@ -104,16 +117,12 @@ void RemoveUnfinishedFiles() {
 }
 
 void RemoveLeftovers(const fs::path& folder) {
-  static const std::regex pattern(R"(\..*\.(\d+)-\d+\.part(\.[^.]*)?)");
   std::error_code error;
   for (auto file = fs::recursive_directory_iterator(folder, error);
        !error && file != fs::recursive_directory_iterator(); file.increment(error)) {
-    const std::string name = file->path().filename().string();
-    std::smatch match;
-    if (!std::regex_match(name, match, pattern)) continue;
-    const auto pid = static_cast<pid_t>(std::strtol(match[1].str().c_str(), nullptr, 10));
+    const std::optional<pid_t> owner = OwnerOf(file->path().filename().string());
     std::error_code ignored;
-    if (!IsAlive(pid)) fs::remove(file->path(), ignored);
+    if (owner && !IsAlive(*owner)) fs::remove(file->path(), ignored);
   }
 }
 
