@@ -73,6 +73,15 @@ TEST(UsableThreads, AsManyAsSlurmGivesButNoMoreThanThereAre) {
   ::unsetenv("SLURM_CPUS_PER_TASK");
 }
 
+// Eigen leaves the elements of Vec3d{} as the memory was; ours are zero (core/CMakeLists.txt). The
+// memory is filled first, so that the test fails where they are left alone.
+TEST(Vectors, EmptyBracesAreZero) {
+  alignas(Vec3d) std::array<unsigned char, sizeof(Vec3d)> memory;
+  memory.fill(0x42);
+  const Vec3d* v = new (memory.data()) Vec3d{};
+  EXPECT_EQ(*v, Vec3d::Zero());
+}
+
 TEST(CameraModel, FieldOfViewOfTheThesisGivesTenMicrometrePixels) {
   // f / fx is the pixel pitch: 30 mm / fx with fx = 320 / tan(6.09 deg), i.e. 2 * 30 tan(6.09 deg)
   // / 640 = 10.0 um.
