@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <functional>
 #include <map>
 
 #include "core/atomic_file.h"
@@ -81,6 +80,17 @@ void CopyPlan(const DatasetConfig& config, const fs::path& folder) {
   WriteTextFile(copy, text);
 }
 
+// What other runs have done counts if its pictures are there; those of this one's own choice have
+// been read.
+void MissPictures(const DatasetPlan& plan, const DatasetRunOptions& options, DatasetState& state) {
+  if (!options.chosen) return;
+  for (size_t i = 0; i < state.done.size(); ++i) {
+    if (!state.done[i] || options.chosen(i)) continue;
+    for (const DatasetPlan::File& file : plan.FilesOf(plan.Result(i)))
+      state.done[i] = state.done[i] && fs::exists(plan.Folder() / file.name);
+  }
+}
+
 }  // namespace
 
 size_t DatasetState::ScenesDone() const {
@@ -91,8 +101,8 @@ void PlanDataset(const fs::path& config_file, const fs::path& folder, const Reco
   const DatasetScenes scenes(ReadDatasetConfig(config_file));
   scenes.Draw(0);  // what can't be drawn shows here, not after hours
   const RecordOptions recording = RecordingOf(scenes.Config(), folder, choice);
-  CheckSameWork(TaskStore(folder, kDatasetStudy, DatasetInputs(scenes, recording)));
-  EnsureWritableFolder(folder);
+  // Settles what the folder is for, before another run's config is replaced.
+  const TaskManifest begun(TaskStore(folder, kDatasetStudy, DatasetInputs(scenes, recording)));
   CopyPlan(scenes.Config(), folder);
   DatasetRunOptions none{choice, [](size_t) { return false; }, {}};
   RecordTimes times;
@@ -121,6 +131,7 @@ DatasetState RunDataset(const fs::path& folder, const DatasetRunOptions& options
       },
       progress, loop);
   state.tasks = manifest.Report();
+  MissPictures(plan, options, state);
   return state;
 }
 
@@ -136,21 +147,36 @@ DatasetState StateOf(const DatasetPlan& plan) {
   return state;
 }
 
-void WriteDatasetIndex(const DatasetPlan& plan) {
-  AtomicFile file(plan.Folder() / kIndexFile);
-  std::ofstream stream(file.Temporary(), std::ios::binary);
+namespace {
+
+// The text of dataset.json, piece by piece, as the results say it.
+void ComposeIndex(const DatasetPlan& plan, const std::function<void(std::string_view)>& append) {
   std::string header = HeaderOf(plan).dump(1);
   header.resize(header.size() - 2);  // the line with the closing brace
-  stream << header << ",\n \"scenes\": [";
+  append(header + ",\n \"scenes\": [");
   for (size_t i = 0; i < plan.Tasks().size(); ++i)
-    stream << (i > 0 ? ",\n" : "\n") << plan.Read(i).ToJson().dump();
-  stream << "\n]}\n";
-  stream.close();
-  if (!stream) {
-    throw TryAgainError(fmt::format("{}: cannot write ({})", (plan.Folder() / kIndexFile).string(),
-                                    std::strerror(errno)));
-  }
+    append((i > 0 ? ",\n" : "\n") + plan.Read(i).ToJson().dump());
+  append("\n]}\n");
+}
+
+}  // namespace
+
+void WriteDatasetIndex(const DatasetPlan& plan) {
+  FileWriter file(plan.Folder() / kIndexFile);
+  ComposeIndex(plan, [&](std::string_view text) { file.Append(text); });
   file.Commit();
+}
+
+bool IsIndexOf(const DatasetPlan& plan) {
+  std::ifstream stream(plan.Folder() / kIndexFile, std::ios::binary);
+  bool same = true;
+  std::string found;
+  ComposeIndex(plan, [&](std::string_view expected) {
+    found.resize(expected.size());
+    same = same && stream.read(found.data(), static_cast<std::streamsize>(found.size())) &&
+           found == expected;
+  });
+  return same && stream.peek() == std::ifstream::traits_type::eof();
 }
 
 DatasetIndex ReadDatasetIndex(const fs::path& folder) {

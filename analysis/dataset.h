@@ -48,6 +48,8 @@ DatasetState StateOf(const DatasetPlan& plan);
 // dataset.json (`retrolux/dataset-index-1`): all labels, a scene a line. The dataset must be done;
 // holds one scene at a time.
 void WriteDatasetIndex(const DatasetPlan& plan);
+// Whether dataset.json is what WriteDatasetIndex would write now.
+bool IsIndexOf(const DatasetPlan& plan);
 
 // What dataset.json says of the whole set; its "scenes" are read one by one.
 struct DatasetIndex {

@@ -23,18 +23,8 @@ std::string FaultOf(const DatasetPlan& plan, size_t scene) {
   }
 }
 
-// Whether dataset.json holds the results as they are. Damaged results are told of by themselves.
-bool IndexAgrees(const DatasetPlan& plan) {
-  const DatasetIndex index = ReadDatasetIndex(plan.Folder());
-  if (index.scenes.size() != plan.Tasks().size()) return false;
-  for (size_t i = 0; i < index.scenes.size(); ++i) {
-    if (plan.Read(i).ToJson() != index.scenes[i].ToJson()) return false;
-  }
-  return true;
-}
-
 void CopyFile(const fs::path& from, const fs::path& to) {
-  fs::create_directories(to.parent_path());
+  EnsureWritableFolder(to.parent_path());
   WriteTextFile(to, ReadTextFile(from));
 }
 
@@ -58,7 +48,7 @@ void CheckSameDataset(const DatasetPlan& plan, const DatasetPlan& other) {
 
 }  // namespace
 
-DatasetFaults VerifyDataset(const fs::path& folder, Progress& progress) {
+DatasetFaults VerifyDataset(const fs::path& folder, IndexToo index, Progress& progress) {
   const DatasetPlan plan(folder);
   DatasetFaults faults;
   const size_t scenes = plan.Tasks().size();
@@ -79,17 +69,21 @@ DatasetFaults VerifyDataset(const fs::path& folder, Progress& progress) {
     ++faults.checked;
     if (!fault[i].empty()) faults.damaged.push_back(NameOf(plan, i) + ": " + fault[i]);
   }
-  if (faults.damaged.empty() && faults.missing.empty() && fs::exists(folder / "dataset.json") &&
-      !IndexAgrees(plan)) {
-    faults.damaged.push_back("dataset.json: not what the results say");
+  if (index == IndexToo::kYes && faults.damaged.empty() && faults.missing.empty()) {
+    if (!fs::exists(folder / "dataset.json")) {
+      faults.missing.push_back("dataset.json: `retrolux dataset run` writes it");
+    } else if (!IsIndexOf(plan)) {
+      faults.damaged.push_back("dataset.json: not what the results say");
+    }
   }
   return faults;
 }
 
-void MergeDatasets(const fs::path& folder, const std::vector<fs::path>& others,
-                   Progress& progress) {
+std::vector<std::string> MergeDatasets(const fs::path& folder, const std::vector<fs::path>& others,
+                                       Progress& progress) {
   const DatasetPlan plan(folder);
   for (const fs::path& other : others) CheckSameDataset(plan, DatasetPlan(other));
+  std::vector<std::string> damaged;
   for (const fs::path& other_folder : others) {
     const DatasetPlan other(other_folder);
     const size_t scenes = plan.Tasks().size();
@@ -99,14 +93,18 @@ void MergeDatasets(const fs::path& folder, const std::vector<fs::path>& others,
       if (!other.HasResult(i)) continue;
       if (plan.HasResult(i) && FaultOf(plan, i).empty()) continue;
       const std::string fault = FaultOf(other, i);
-      if (!fault.empty()) {
-        throw InputError::At(other_folder, NameOf(other, i), fault,
-                             "a whole result; `retrolux dataset run` there makes it again");
+      if (fault.empty()) {
+        TakeScene(other, plan, i);
+      } else {
+        damaged.push_back(
+            fmt::format("{}: {}: {}; not taken, `retrolux dataset run` there makes "
+                        "it again",
+                        other_folder.string(), NameOf(other, i), fault));
       }
-      TakeScene(other, plan, i);
     }
     progress.End();
   }
+  return damaged;
 }
 
 }  // namespace retrolux

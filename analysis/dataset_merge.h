@@ -12,13 +12,19 @@ struct DatasetFaults {
   std::vector<std::string> missing;  // "scene-00018 (number 18)"; with the last failure if any
 };
 
-// Reads every result and every file that belongs to it and compares checksums; compares
-// dataset.json, if there is one, with the results. Writes nothing.
-DatasetFaults VerifyDataset(const std::filesystem::path& folder, Progress& progress);
+// Whether dataset.json is looked at, too.
+enum class IndexToo { kNo, kYes };
+
+// Reads every result and every file that belongs to it and compares checksums; where all is done,
+// compares dataset.json with what the results say, byte by byte. Writes nothing.
+DatasetFaults VerifyDataset(const std::filesystem::path& folder, IndexToo index,
+                            Progress& progress);
 
 // Takes from the other folders what they have done and `folder` has not. All must be of the same
-// plan (InputError), and what is taken is checked. Writes beside and renames; may be run again.
-void MergeDatasets(const std::filesystem::path& folder,
-                   const std::vector<std::filesystem::path>& others, Progress& progress);
+// plan (InputError). What is taken is checked; returns what was damaged and not taken, a line each.
+// Writes beside and renames; may be run again.
+std::vector<std::string> MergeDatasets(const std::filesystem::path& folder,
+                                       const std::vector<std::filesystem::path>& others,
+                                       Progress& progress);
 
 }  // namespace retrolux

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/hotspot_picture.h"
 #include "analysis/hotspot_placement_report.h"
 #include "analysis/hotspot_report_plots.h"
@@ -42,6 +44,7 @@ class HotspotReport {
     if (!series_.rows.empty()) {
       Strip();
       AddHotspotPlots(series_, report_);
+      Cameras();
     }
     report_.HowMade(command_line);
     report_.Paragraph(fmt::format(
@@ -58,6 +61,26 @@ class HotspotReport {
     double largest = 0.0;
     for (const HotspotRow& row : series_.rows) largest = std::max(largest, row.RenderNoise());
     return largest;
+  }
+
+  // Cameras and mask of the first placement at some of the angles.
+  void Cameras() {
+    std::vector<RoomScene> states;
+    for (const double psi_deg : kStrip_deg) {
+      const auto row = std::find_if(series_.rows.begin(), series_.rows.end(),
+                                    [&](const HotspotRow& r) { return r.psi_deg == psi_deg; });
+      if (row == series_.rows.end()) continue;
+      RoomScene& state = states.emplace_back();
+      state.label = fmt::format("{:g}°", psi_deg);
+      state.scene = HotspotScene(series_.setup, psi_deg, 0, study_.options.shot.seed);
+      state.numbers = CamerasThatSee(state.scene, "mask");
+    }
+    if (states.empty()) return;
+    report_.Room(
+        "The cameras with their rings and fields of view, the markers, and the mask coloured by "
+        "how "
+        "many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        DrawRoom("Angle between cameras", states));
   }
 
   void Angles() {

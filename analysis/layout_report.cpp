@@ -23,12 +23,13 @@ class LayoutReport {
                 fmt::format("{}, mask {}, method {}; retrolux " RETROLUX_VERSION, study.scene,
                             study.options.mask, study.options.method)) {}
 
-  Report Compose(const std::string& command) {
+  Report Compose(const Scene& room, const std::string& command) {
     Summary();
     Counts();
     Errors();
     Places();
     Pictures();
+    Room(room);
     report_.HowMade(command);
     for (const char* file : {"layout.json", "sightings.csv", "pairs.csv"})
       report_.Attachment(file, ReadTextFile(folder_ / file));
@@ -128,6 +129,32 @@ class LayoutReport {
     report_.PictureGrid("Both ends and the middle; dark levels raised (gamma 2.2)", pictures, 3);
   }
 
+  // The poses nearest to both ends and to the middle of the scan.
+  void Room(const Scene& room) {
+    const std::vector<Pose>& poses = study_.options.poses;
+    const auto by_z = [](const Pose& a, const Pose& b) {
+      return a.translation.z() < b.translation.z();
+    };
+    const auto by_distance = [](const Pose& a, const Pose& b) {
+      return std::abs(a.translation.z()) < std::abs(b.translation.z());
+    };
+    std::vector<RoomScene> states;
+    for (const Pose& pose : {*std::min_element(poses.begin(), poses.end(), by_distance),
+                             *std::min_element(poses.begin(), poses.end(), by_z),
+                             *std::max_element(poses.begin(), poses.end(), by_z)}) {
+      RoomScene& state = states.emplace_back();
+      state.label = fmt::format("z {:+.0f} mm", pose.translation.z());
+      state.scene = LayoutScene(room, study_.options).AtPose(pose);
+      state.scene.markers = study_.markers;
+      state.numbers = CamerasThatSee(state.scene, "mask");
+    }
+    report_.Heading("The room");
+    report_.Room(
+        "Cameras with their rings and fields of view, the markers, and the mask coloured by how "
+        "many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        DrawRoom("Position of the patient", states));
+  }
+
   const LayoutStudy& study_;
   fs::path folder_;
   Report report_;
@@ -135,9 +162,9 @@ class LayoutReport {
 
 }  // namespace
 
-void WriteLayoutReport(const LayoutStudy& study, const fs::path& folder,
+void WriteLayoutReport(const LayoutStudy& study, const Scene& room, const fs::path& folder,
                        const std::string& command_line) {
-  LayoutReport(study, folder).Compose(command_line).Write(folder / "report.html");
+  LayoutReport(study, folder).Compose(room, command_line).Write(folder / "report.html");
 }
 
 }  // namespace retrolux

@@ -18,23 +18,6 @@ namespace {
 
 constexpr const char* kMask = "mask";
 
-Scene WithMask(Scene scene, const LayoutStudyOptions& options) {
-  SceneObject* mask = nullptr;
-  for (SceneObject& object : scene.objects) {
-    if (object.name == kMask && object.moves_with_pose) mask = &object;
-  }
-  if (!mask) {
-    throw InputError(
-        fmt::format("scene '{}': no object '{}' that moves with the pose", scene.name, kMask));
-  }
-  mask->mesh = MakeMask(options.mask);
-  mask->perforation.reset();
-  scene.markers.clear();
-  scene.UseMaterial(options.material);
-  scene.exposure.marker_material = options.material;
-  return scene;
-}
-
 // Of the poses, those a search step apart, and the last.
 std::vector<Pose> SearchPoses(const LayoutStudyOptions& options) {
   std::vector<Pose> chosen;
@@ -99,6 +82,23 @@ Json Inputs(const Scene& scene, const LayoutStudyOptions& options) {
 
 }  // namespace
 
+Scene LayoutScene(Scene scene, const LayoutStudyOptions& options) {
+  SceneObject* mask = nullptr;
+  for (SceneObject& object : scene.objects) {
+    if (object.name == kMask && object.moves_with_pose) mask = &object;
+  }
+  if (!mask) {
+    throw InputError(
+        fmt::format("scene '{}': no object '{}' that moves with the pose", scene.name, kMask));
+  }
+  mask->mesh = MakeMask(options.mask);
+  mask->perforation.reset();
+  scene.markers.clear();
+  scene.UseMaterial(options.material);
+  scene.exposure.marker_material = options.material;
+  return scene;
+}
+
 const LayoutPair& LayoutStudy::Best(size_t pose) const {
   const LayoutPair* best = nullptr;
   for (const LayoutPair& pair : pairs) {
@@ -121,7 +121,7 @@ int LayoutStudy::Margin() const {
 
 LayoutStudy RunLayoutStudy(const Scene& scene, const LayoutStudyOptions& options,
                            const fs::path& folder, Progress& progress) {
-  Scene room = WithMask(scene, options);
+  Scene room = LayoutScene(scene, options);
   EnsureWritableFolder(folder / "pictures");
   LayoutStudy study;
   study.options = options;

@@ -55,6 +55,10 @@ struct LayoutStudy {
   int Margin() const;
 };
 
+// The scene with the mask of the options and without markers, as it is searched and rendered.
+// InputError if it has no object "mask" that moves with the pose.
+Scene LayoutScene(Scene scene, const LayoutStudyOptions& options);
+
 // Renders into `folder`/tasks and /pictures (of the poses with the largest and smallest z, and the
 // one nearest to z = 0); an interrupted study goes on. The scene must have an object "mask" that
 // moves with the pose. InputError.
@@ -62,9 +66,10 @@ LayoutStudy RunLayoutStudy(const Scene& scene, const LayoutStudyOptions& options
                            const std::filesystem::path& folder, Progress& progress);
 
 // layout.json, sightings.csv, pairs.csv, report.html.
+// `room`: the scene of the study.
 nlohmann::json LayoutSummary(const LayoutStudy& study);
 void WriteLayoutFiles(const LayoutStudy& study, const std::filesystem::path& folder);
-void WriteLayoutReport(const LayoutStudy& study, const std::filesystem::path& folder,
-                       const std::string& command_line);
+void WriteLayoutReport(const LayoutStudy& study, const Scene& room,
+                       const std::filesystem::path& folder, const std::string& command_line);
 
 }  // namespace retrolux

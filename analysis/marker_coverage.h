@@ -63,8 +63,8 @@ void WriteStudyFiles(const MarkerStudy& study, const StudyCoverage& coverage,
                      const std::filesystem::path& folder);
 nlohmann::json StudySummary(const MarkerStudy& study, const StudyCoverage& coverage);
 
-// report.html into `folder`; `command` tells how it was made.
-void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage,
+// report.html into `folder`; `room` is the scene of the study, `command` tells how it was made.
+void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage, const Scene& room,
                       const std::filesystem::path& folder, const std::string& command);
 
 }  // namespace retrolux

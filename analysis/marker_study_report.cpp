@@ -26,9 +26,10 @@ class StudyReport {
                         study.cameras.size(), fmt::join(study.options.markers, " and "),
                         study.options.method)) {}
 
-  Report Compose(const std::string& command) {
+  Report Compose(const Scene& room, const std::string& command) {
     Summary();
     AddGain(study_, coverage_, report_);
+    AddRoom(study_, coverage_, room, report_);
     if (study_.poses.size() <= 3) {
       AddMaps(study_, coverage_, report_);
     } else {
@@ -263,9 +264,9 @@ std::string Grouped(double value) {
   return grouped;
 }
 
-void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage,
+void WriteStudyReport(const MarkerStudy& study, const StudyCoverage& coverage, const Scene& room,
                       const std::filesystem::path& folder, const std::string& command) {
-  StudyReport(study, coverage, folder).Compose(command).Write(folder / "report.html");
+  StudyReport(study, coverage, folder).Compose(room, command).Write(folder / "report.html");
 }
 
 }  // namespace retrolux

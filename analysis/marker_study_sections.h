@@ -12,6 +12,10 @@ void AddGain(const MarkerStudy& study, const StudyCoverage& coverage, Report& re
 // Maps of the oval: usable positions, how many cameras, and each camera's outcomes.
 void AddMaps(const MarkerStudy& study, const StudyCoverage& coverage, Report& report);
 
+// The room in three dimensions, the mask coloured by how many cameras identify a marker.
+void AddRoom(const MarkerStudy& study, const StudyCoverage& coverage, const Scene& room,
+             Report& report);
+
 // 33015.4 -> "33,015"
 std::string Grouped(double value);
 

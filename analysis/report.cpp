@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/base64.h"
 #include "core/atomic_file.h"
 #include "core/data_path.h"
 #include "core/error.h"
@@ -17,23 +18,6 @@ namespace retrolux {
 using nlohmann::json;
 
 namespace {
-
-std::string Base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-    }
-  }
-  return text;
-}
 
 std::string Replaced(std::string_view text, char what, std::string_view by) {
   std::string result;
@@ -63,6 +47,14 @@ std::string EmbeddedJson(const json& content) {
 
 std::string PageFile(const char* name) {
   return ReadTextFile(DataPath(std::filesystem::path("analysis/report") / name));
+}
+
+std::string PageScripts() {
+  std::string scripts;
+  for (const char* name : {"oval.js", "plot.js", "viewer.js", "compare.js", "channels.js",
+                           "room.js", "page.js"})  // page.js last: it draws with the others
+    scripts += PageFile(name);
+  return scripts;
 }
 
 std::string PlotLibrary() {
@@ -240,6 +232,48 @@ void Report::PictureGrid(const std::string& caption, const std::vector<LabelledP
   Add("pictures", std::move(block));
 }
 
+void Report::Comparison(const std::string& caption, const LabelledPicture& left,
+                        const LabelledPicture& right) {
+  Add("comparison",
+      {{"caption", caption}, {"items", json::array({PictureJson(left), PictureJson(right)})}});
+}
+
+void Report::Channels(const std::string& caption, int width, int height,
+                      const std::vector<ReportChannel>& channels) {
+  constexpr std::array<const char*, 3> kKinds = {"value", "difference", "ids"};
+  json items = json::array();
+  for (const ReportChannel& channel : channels) {
+    RETROLUX_CHECK(
+        channel.values.size() == static_cast<size_t>(width) * static_cast<size_t>(height),
+        "channel '{}': {} values", channel.name, channel.values.size());
+    items.push_back({{"name", channel.name},
+                     {"unit", channel.unit},
+                     {"kind", kKinds[static_cast<size_t>(channel.kind)]},
+                     {"names", channel.names},
+                     {"data", Base64(Deflated(channel.values))}});
+  }
+  Add("channels",
+      {{"caption", caption}, {"width", width}, {"height", height}, {"channels", std::move(items)}});
+}
+
+void Report::Room(const std::string& caption, const RoomFigure& room, int height_px) {
+  RETROLUX_CHECK(!room.states.empty(), "room '{}' has no state", caption);
+  const auto vector = [](const Vec3d& v) -> json {
+    return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
+  };
+  json states = json::array();
+  for (const RoomState& state : room.states)
+    states.push_back({{"label", state.label}, {"traces", state.traces}});
+  Add("room", {{"caption", caption},
+               {"height_px", height_px},
+               {"up", vector(room.up)},
+               {"eye", vector(room.eye)},
+               {"traces", room.traces},
+               {"choice", room.choice},
+               {"states", std::move(states)}});
+  has_plots_ = true;
+}
+
 void Report::OvalMaps(const std::string& caption, const std::vector<OvalCategory>& categories,
                       const std::vector<OvalMap>& maps, const OvalGrid& grid) {
   json items = json::array();
@@ -273,8 +307,7 @@ std::string Report::Html() const {
                        {"css", PageFile("page.css")},
                        {"plotly", has_plots_ ? PlotLibrary() : ""},
                        {"content", EmbeddedJson(content_)},
-                       {"js", PageFile("oval.js") + PageFile("plot.js") + PageFile("viewer.js") +
-                                  PageFile("page.js")}});
+                       {"js", PageScripts()}});
 }
 
 void Report::Write(const std::filesystem::path& file) const {

@@ -3,13 +3,16 @@
 // draws it.
 //
 // To add a kind of block: a method here that appends {"type": ...} to the content, a function in
-// analysis/report/page.js and its row in the table DRAW there, and a line in tests/report_demo.cpp.
+// analysis/report/ (page.js, or a file of its own that report.cpp lists) and its row in the table
+// DRAW of page.js, and a line in tests/report_demo.cpp.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "analysis/room_figure.h"
 
 namespace retrolux {
 
@@ -25,6 +28,16 @@ struct KeyFigure {
 struct LabelledPicture {
   std::string label;
   std::string png_bytes;  // the encoded file, e.g. of EncodeRgbPng
+};
+
+// A channel of a picture, row by row.
+struct ReportChannel {
+  enum class Kind { kValue, kDifference, kIds };  // a difference is drawn from blue to red about 0
+
+  std::string name, unit;
+  Kind kind = Kind::kValue;
+  std::vector<std::string> names;  // of ids: the first is that of id 1
+  std::vector<float> values;       // ids up to 2^24; NaN: no value
 };
 
 // The grid of marker positions on the top half (x >= 0) of an ellipsoid of revolution about z.
@@ -78,6 +91,15 @@ class Report {
   // `legend`: what colours in the pictures mean.
   void PictureGrid(const std::string& caption, const std::vector<LabelledPicture>& pictures,
                    int columns, const std::vector<OvalCategory>& legend = {});
+  // Two pictures of the same size, one over the other, with a slider between them.
+  void Comparison(const std::string& caption, const LabelledPicture& left,
+                  const LabelledPicture& right);
+  // Channels of one picture to choose from: false colour with a scale that can be set, the value
+  // under the pointer.
+  void Channels(const std::string& caption, int width, int height,
+                const std::vector<ReportChannel>& channels);
+  // A room in three dimensions, with a choice of its states.
+  void Room(const std::string& caption, const RoomFigure& room, int height_px = 620);
   // Small multiples with one legend: each map unrolled, and painted on the oval seen from above,
   // from the side (+y) and from the front (+z).
   void OvalMaps(const std::string& caption, const std::vector<OvalCategory>& categories,

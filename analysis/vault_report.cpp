@@ -5,6 +5,7 @@
 #include "analysis/vault_drawing.h"
 #include "analysis/vault_plots.h"
 #include "analysis/vault_reading.h"
+#include "analysis/vault_room.h"
 #include "analysis/vault_table.h"
 #include "analysis/vault_text.h"
 #include "core/atomic_file.h"
@@ -111,6 +112,10 @@ class VaultReport {
                     "one point of the drawing stands for share a label.",
                     WorstMaskName(), TextOf(Rotation())),
         DrawVault(setup));
+    report_.Room(
+        "The same in three dimensions: cameras with their rings and fields of view, the nozzles, "
+        "and the mask coloured by how many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        DrawVaultRoom(study_));
   }
 
   void Costs() {

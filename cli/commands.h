@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "core/say.h"
 
 namespace retrolux::cli {
 
@@ -22,7 +24,9 @@ struct GlobalOptions {
   std::optional<uint64_t> noise_seed;  // default: the seed
   bool quiet = false;
   bool json = false;
-  std::string command_line;  // as it was typed
+  std::vector<std::string> arguments;  // as they were typed, without the program's name
+  std::string command_line;            // the same in one line
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
   std::string progress =
       "auto";  // auto: a bar if stderr is a terminal; json: lines for a log; none
 
@@ -44,19 +48,23 @@ void SetUpRender(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpScene(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpDataset(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpDiff(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpEvaluate(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpGoniometer(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMaterial(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpMask(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpReport(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpStereo(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpStudy(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpTags(CLI::App& app, const GlobalOptions& global, Run& run);
 void SetUpValidate(CLI::App& app, const GlobalOptions& global, Run& run);
+void SetUpView(CLI::App& app, const GlobalOptions& global, Run& run);
 
 // The progress bar or log that the global options ask for.
 std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global);
 
 // Tells the result: the summary as JSON on stdout with --json, else `text` unless --quiet.
+// TryAgainError if stdout can't be written to; a reader that has gone wants no more.
 void PrintResult(const GlobalOptions& global, const nlohmann::json& summary,
                  const std::string& text);
 

@@ -52,11 +52,10 @@ int ShardsOf(const PlanCommand& command, const DatasetPlan& plan, Progress& prog
   if (command.shards == 0) return ShardsFor(scenes, each, kUsual_s);
   const int most = ShardsFor(scenes, each, kLeast_s);
   if (command.shards > most) {
-    fmt::print(
-        stderr,
-        "retrolux: {} shards instead of {}: a scene takes {:.2g} s, a shard should have half a "
-        "minute of work\n",
-        most, command.shards, each);
+    Tell(fmt::format(
+        "{} shards instead of {}: a scene takes {:.2g} s, a shard should have half a minute of "
+        "work",
+        most, command.shards, each));
   }
   return std::min(command.shards, most);
 }

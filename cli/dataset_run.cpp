@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "cli/dataset.h"
 #include "cli/run_json.h"
 #include "cli/task_choice.h"
+#include "core/error.h"
 
 namespace retrolux::cli {
 
@@ -18,20 +20,32 @@ using Json = nlohmann::json;
 struct RunCommand {
   fs::path folder;
   std::string shard, tasks;
-  double time_limit_s = 0.0;  // 0: none
+  std::optional<double> time_limit_s;
   RecordChoice recording;
 };
 
-DatasetRunOptions RunOptionsOf(const RunCommand& command) {
+// The time limit is that of the program, however often a crash made the work begin again.
+DatasetRunOptions RunOptionsOf(const RunCommand& command, const GlobalOptions& global) {
   DatasetRunOptions options;
   options.recording = command.recording;
   if (!command.shard.empty()) options.chosen = ParseShard(command.shard);
-  if (!command.tasks.empty()) options.chosen = ParseTasks(command.tasks);
-  if (command.time_limit_s > 0.0) {
-    options.until = std::chrono::steady_clock::now() +
-                    std::chrono::milliseconds(std::llround(1e3 * command.time_limit_s));
+  if (!command.tasks.empty()) {
+    const DatasetPlan plan(command.folder, command.recording);
+    options.chosen = ParseTasks(command.tasks, plan.Tasks().size());
+  }
+  if (command.time_limit_s) {
+    options.until =
+        global.begun + std::chrono::milliseconds(std::llround(1e3 * *command.time_limit_s));
   }
   return options;
+}
+
+void SetTimeLimit(double seconds, RunCommand& command) {
+  constexpr double kLongest_s = 1e7;
+  if (!(seconds >= 0.0 && seconds <= kLongest_s))
+    throw InputError(
+        fmt::format("--time-limit: {} s; expected from 0 to {:g} s", seconds, kLongest_s));
+  command.time_limit_s = seconds;
 }
 
 // What one picture cost, ms of all threads together.
@@ -72,9 +86,9 @@ int RunRun(const RunCommand& command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   RecordTimes times;
-  const DatasetState state = RunDataset(command.folder, RunOptionsOf(command), *progress, times);
-  for (const std::string& warning : state.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  const DatasetState state =
+      RunDataset(command.folder, RunOptionsOf(command, global), *progress, times);
+  for (const std::string& warning : state.tasks.warnings) Tell(warning);
   const double seconds = run.Seconds();
   const Json figures = Figures(state, times, seconds);
   if (state.IsDone()) WriteIndexAndCard(DatasetPlan(command.folder));
@@ -100,8 +114,8 @@ void SetUpDatasetRun(CLI::App& dataset, const GlobalOptions& global, Run& run) {
       sub->add_option("--shard", command->shard, "i/n: every n-th scene, i from 1");
   sub->add_option("--tasks", command->tasks, "scenes by number, from 0, e.g. 2,4,10-20")
       ->excludes(shard);
-  sub->add_option(
-         "--time-limit", command->time_limit_s,
+  sub->add_option_function<double>(
+         "--time-limit", [command](double seconds) { SetTimeLimit(seconds, *command); },
          "no scene is begun later than that, e.g. 90min or 8h; exit code 75 if some are left")
       ->transform(CLI::AsNumberWithUnit(
           std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}},

@@ -3,6 +3,7 @@
 
 #include "analysis/dataset_merge.h"
 #include "cli/dataset.h"
+#include "core/error.h"
 
 namespace retrolux::cli {
 
@@ -17,9 +18,8 @@ struct MergeCommand {
 
 // A line for each on stderr, however many.
 void PrintFaults(const DatasetFaults& faults) {
-  for (const std::string& fault : faults.damaged) fmt::print(stderr, "retrolux: {}\n", fault);
-  for (const std::string& scene : faults.missing)
-    fmt::print(stderr, "retrolux: not done: {}\n", scene);
+  for (const std::string& fault : faults.damaged) Tell(fault);
+  for (const std::string& scene : faults.missing) Tell("not done: " + scene);
 }
 
 std::string FaultsText(const DatasetFaults& faults) {
@@ -37,18 +37,33 @@ int ExitCodeOf(const DatasetFaults& faults) {
 }
 
 int RunVerify(const fs::path& folder, const GlobalOptions& global) {
-  const DatasetFaults faults = VerifyDataset(folder, *MakeProgress(global));
+  const DatasetFaults faults = VerifyDataset(folder, IndexToo::kYes, *MakeProgress(global));
   PrintFaults(faults);
   PrintResult(global, FaultsJson(faults), FaultsText(faults));
   return ExitCodeOf(faults);
 }
 
+// What is made of all scenes is made anew, and must not be there if one of them is not.
+void RemoveSummaries(const fs::path& folder) {
+  for (const char* name : {"dataset.json", "card.md", "contact_sheet.png", "report.html"}) {
+    std::error_code error;
+    fs::remove(folder / name, error);
+    if (error)
+      throw InputError::At(folder / name, "", error.message(), "a file that can be removed");
+  }
+}
+
+// A damaged copy that another folder had whole is told of, and no fault.
 int RunMerge(const MergeCommand& command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const fs::path& folder = command.folders.front();
-  MergeDatasets(folder, {command.folders.begin() + 1, command.folders.end()}, *progress);
-  fs::remove(folder / "dataset.json");  // it is made anew, and must not be there if a scene is not
-  const DatasetFaults faults = VerifyDataset(folder, *progress);
+  const std::vector<std::string> not_taken =
+      MergeDatasets(folder, {command.folders.begin() + 1, command.folders.end()}, *progress);
+  for (const std::string& fault : not_taken) Tell(fault);
+  RemoveSummaries(folder);
+  DatasetFaults faults = VerifyDataset(folder, IndexToo::kNo, *progress);
+  if (!faults.missing.empty())
+    faults.damaged.insert(faults.damaged.end(), not_taken.begin(), not_taken.end());
   PrintFaults(faults);
   std::string text = FaultsText(faults);
   if (ExitCodeOf(faults) == kExitGood) {

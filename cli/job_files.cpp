@@ -110,9 +110,11 @@ std::vector<fs::path> WriteParallel(const JobPlan& plan, const fs::path& folder)
 # e.g. --jobs 4 or --sshloginfile hosts. To be run again after a failure: only what is missing is done.
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/../.."
+command -v parallel >/dev/null || {{ echo "GNU parallel is not installed" >&2; exit 2; }}
 jobs=$(($(nproc) / {1})); [ "$jobs" -ge 1 ] || jobs=1
-seq {0} | parallel --jobs "$jobs" --halt never "$@" \
-  "${{RETROLUX:-retrolux}}" dataset run . --shard {{}}/{0} --threads {1} || true
+# It gives its arguments to a shell, and begins elsewhere on other hosts. What fails is told by the merge.
+seq {0} | parallel --jobs "$jobs" --halt never --workdir "$PWD" "$@" \
+  "$(printf %q "${{RETROLUX:-retrolux}}")" dataset run . --shard {{}}/{0} --threads {1} || true
 exec "${{RETROLUX:-retrolux}}" dataset merge .
 )SH",
       plan.shards, plan.threads);

@@ -1,8 +1,6 @@
 // retrolux: one program, a subcommand a file. Only here exceptions become exit codes:
 // 0 good, 1 our fault, 2 the user's input, 3 a check failed, 4 some tasks failed, 75 try again,
 // 129, 130, 143 interrupted.
-#include <fmt/core.h>
-
 #include <charconv>
 #include <csignal>
 
@@ -35,29 +33,39 @@ uint64_t ParseSeed(const std::string& option, const std::string& text) {
   return seed;
 }
 
-int Guarded(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run& run) {
+int Guarded(const retrolux::cli::Run& run) {
   try {
-    const retrolux::LimitThreads limit(global.threads);
     return run();
   } catch (const retrolux::InputError& error) {
-    fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
+    retrolux::Tell(OneLine(error.what()));
     return retrolux::cli::kExitBadInput;
   } catch (const retrolux::TasksFailed& error) {
-    fmt::print(stderr, "retrolux: {}:\n", error.what());
+    retrolux::Tell(std::string(error.what()) + ":");
     for (const std::string& failure : error.Failures())
-      fmt::print(stderr, "  {}\n", OneLine(failure));
+      retrolux::Say("  " + OneLine(failure) + "\n");
     return retrolux::cli::kExitTasksFailed;
   } catch (const retrolux::TryAgainError& error) {
-    fmt::print(stderr, "retrolux: {}; try again when that is mended\n", OneLine(error.what()));
+    retrolux::Tell(OneLine(error.what()) + "; try again when that is mended");
     return retrolux::cli::kExitTryAgain;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "retrolux: not enough memory; try again with fewer threads or a smaller picture\n");
+    retrolux::Tell("not enough memory; try again with fewer threads or a smaller picture");
     return retrolux::cli::kExitTryAgain;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "retrolux: internal error, please report it: {}\n", error.what());
+    retrolux::Tell(std::string("internal error, please report it: ") + error.what());
     return kExitOurFault;
   }
+}
+
+int Limited(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run& run) {
+  return Guarded([&] {
+    const retrolux::LimitThreads limit(global.threads);
+    return run();
+  });
+}
+
+// What fails outside of the supervised work is ours.
+int Supervised(const retrolux::cli::GlobalOptions& global, const retrolux::cli::Run& run) {
+  return Guarded([&] { return retrolux::Supervise([&] { return Limited(global, run); }); });
 }
 
 }  // namespace
@@ -66,7 +74,8 @@ int main(int argc, char** argv) {
   using namespace retrolux::cli;
   GlobalOptions global;
   global.command_line = "retrolux";
-  for (int i = 1; i < argc; ++i) global.command_line += std::string(" ") + argv[i];
+  global.arguments.assign(argv + 1, argv + argc);
+  for (const std::string& argument : global.arguments) global.command_line += " " + argument;
   Run run;
   Run long_run;  // of tasks, so that it can go on after a crash
   CLI::App app{
@@ -104,15 +113,18 @@ int main(int argc, char** argv) {
   SetUpDataset(app, global, long_run);
   SetUpEvaluate(app, global, run);
   SetUpValidate(app, global, run);
+  SetUpReport(app, global, run);
+  SetUpView(app, global, run);
+  SetUpDiff(app, global, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "retrolux: {}; see retrolux --help\n", OneLine(error.what()));
+    retrolux::Tell(OneLine(error.what()) + "; see retrolux --help");
     return kExitBadInput;
   } catch (const retrolux::InputError& error) {
-    fmt::print(stderr, "retrolux: {}\n", OneLine(error.what()));
+    retrolux::Tell(OneLine(error.what()));
     return kExitBadInput;
   }
   if (!run && !long_run) {
@@ -120,12 +132,14 @@ int main(int argc, char** argv) {
     const CLI::App* last = &app;
     while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
     for (const CLI::App* sub : last->get_subcommands({})) names.push_back(sub->get_name());
-    fmt::print(stderr, "retrolux: no subcommand; expected one of {}\n", retrolux::JoinNames(names));
+    retrolux::Tell("no subcommand; expected one of " + retrolux::JoinNames(names));
     return kExitBadInput;
   }
-  // A file that grows beyond its limit is a failed write, as on a full disk, not the end.
+  // A file that grows beyond its limit is a failed write, as on a full disk, and a log whose reader
+  // has gone is one, too: not the end.
   std::signal(SIGXFSZ, SIG_IGN);
-  if (long_run) return retrolux::Supervise([&] { return Guarded(global, long_run); });
+  std::signal(SIGPIPE, SIG_IGN);
+  if (long_run) return Supervised(global, long_run);
   retrolux::EndOnSignals(retrolux::BlockEndingSignals());
-  return Guarded(global, run);
+  return Limited(global, run);
 }

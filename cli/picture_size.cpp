@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "scenes/scene_json.h"
 
 namespace retrolux::cli {
 
@@ -18,6 +19,16 @@ std::pair<int, int> ParseSize(const std::string& text) {
         fmt::format("--size {}: expected WIDTHxHEIGHT in px, each from 1 to 16384", text));
   }
   return {width, height};
+}
+
+Scene LoadSceneAs(const std::string& name, const std::string& pose, const std::string& size) {
+  Scene scene = LoadScene(name);
+  if (!pose.empty()) scene = scene.AtPose(pose);
+  if (!size.empty()) {
+    const auto [width, height] = ParseSize(size);
+    for (CameraSpec& camera : scene.cameras) camera.model = camera.model.Resized(width, height);
+  }
+  return scene;
 }
 
 }  // namespace retrolux::cli

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 #include "cli/run_json.h"
+#include "core/error.h"
 
 namespace retrolux::cli {
 
@@ -82,11 +85,10 @@ class Bar : public DrawnProgress {
         total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
     const int filled = static_cast<int>(share * kWidth);
     const std::string time = last ? "in " + Duration(Elapsed()) : Duration(SecondsLeft()) + " left";
-    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}  {}{}", stage_,
-               std::string(static_cast<size_t>(filled), '#'),
-               std::string(static_cast<size_t>(kWidth - filled), '.'), 100.0 * share,
-               Rate(PerSecond(), unit_), time, last ? "\n" : "");
-    std::fflush(stderr);
+    Say(fmt::format("\r\033[K{} [{}{}] {:3.0f} %  {}  {}{}", stage_,
+                    std::string(static_cast<size_t>(filled), '#'),
+                    std::string(static_cast<size_t>(kWidth - filled), '.'), 100.0 * share,
+                    Rate(PerSecond(), unit_), time, last ? "\n" : ""));
   }
 };
 
@@ -94,7 +96,7 @@ class JsonLines : public DrawnProgress {
  public:
   explicit JsonLines(const ThreadLimit& threads) : DrawnProgress(5.0) {
     const nlohmann::json line = {{"threads", threads.threads}, {"threads_from", threads.source}};
-    fmt::print(stderr, "{}\n", line.dump());
+    Say(line.dump() + "\n");
   }
 
  protected:
@@ -102,7 +104,7 @@ class JsonLines : public DrawnProgress {
     const nlohmann::json line = {
         {"stage", stage_},        {"done", done_},           {"total", total_}, {"unit", unit_},
         {"elapsed_s", Elapsed()}, {"left_s", SecondsLeft()}, {"finished", last}};
-    fmt::print(stderr, "{}\n", line.dump());
+    Say(line.dump() + "\n");
   }
 };
 
@@ -124,11 +126,11 @@ std::unique_ptr<Progress> MakeProgress(const GlobalOptions& global) {
 
 void PrintResult(const GlobalOptions& global, const nlohmann::json& summary,
                  const std::string& text) {
-  if (global.json) {
-    fmt::print("{}\n", summary.dump(2));
-  } else if (!global.quiet) {
-    fmt::print("{}\n", text);
-  }
+  if (global.quiet && !global.json) return;
+  const std::string result = (global.json ? summary.dump(2) : text) + "\n";
+  const bool whole = std::fwrite(result.data(), 1, result.size(), stdout) == result.size();
+  if ((whole && std::fflush(stdout) == 0) || errno == EPIPE) return;
+  throw TryAgainError(fmt::format("stdout: cannot write the result: {}", std::strerror(errno)));
 }
 
 }  // namespace retrolux::cli

@@ -1,12 +1,10 @@
 // retrolux render SCENE --out DIR
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "analysis/shot.h"
 #include "cli/commands.h"
 #include "cli/picture_size.h"
-#include "scenes/scene_json.h"
+#include "cli/run_json.h"
 
 namespace retrolux::cli {
 
@@ -22,20 +20,16 @@ struct RenderCommand {
 };
 
 int RunRender(RenderCommand command, const GlobalOptions& global) {
-  Scene scene = LoadScene(command.scene);
-  if (!command.pose.empty()) scene = scene.AtPose(command.pose);
-  if (!command.size.empty()) {
-    const auto [width, height] = ParseSize(command.size);
-    for (CameraSpec& camera : scene.cameras) camera.model = camera.model.Resized(width, height);
-  }
+  const Scene scene = LoadSceneAs(command.scene, command.pose, command.size);
   command.shot.rings = command.rings == "own" ? RingChoice::kOwn : RingChoice::kAll;
   command.shot.trace.seed = global.seed;
   command.shot.noise_seed = global.NoiseSeed();
   const auto progress = MakeProgress(global);
-  const auto start = std::chrono::steady_clock::now();
+  const StudyRun run(global);
   const std::vector<std::string> files = RenderShot(scene, command.shot, command.out, *progress);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = run.Seconds();
+  run.Write(command.out,
+            {{"scene", command.scene}, {"pose", command.pose}, {"size", command.size}});
   PrintResult(global, {{"out", command.out.string()}, {"files", files}, {"seconds", seconds}},
               fmt::format("{}: {} in {:.1f} s", command.out.string(), JoinNames(files), seconds));
   return kExitGood;

@@ -37,12 +37,33 @@ double StudyRun::Seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+namespace {
+
+// Of `folder` below the folder that --out names: "." or, in studies of several rooms, "1a".
+std::string BelowOut(const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder) {
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    std::string out;
+    if (arguments[i] == "--out" && i + 1 < arguments.size()) out = arguments[i + 1];
+    if (arguments[i].starts_with("--out=")) out = arguments[i].substr(6);
+    if (out.empty()) continue;
+    return (folder / "")
+        .lexically_normal()
+        .lexically_relative((std::filesystem::path(out) / "").lexically_normal());
+  }
+  return ".";
+}
+
+}  // namespace
+
 void StudyRun::Write(const std::filesystem::path& folder, const nlohmann::json& figures) const {
   nlohmann::json run = {{"schema", "retrolux/run-1"},
                         {"version", RETROLUX_VERSION},
                         {"units", "s"},
                         {"pixel_origin", "center"},
                         {"command", global_.command_line},
+                        {"arguments", global_.arguments},
+                        {"below_out", BelowOut(global_.arguments, folder)},
                         {"seed", global_.seed},
                         {"noise_seed", global_.NoiseSeed()},
                         {"started", started_},

@@ -16,12 +16,14 @@ nlohmann::json TasksJson(const TaskReport& report);
 // The threads that a command works on, and why.
 ThreadLimit ThreadsOf(const GlobalOptions& global);
 
-// Times a study from its making.
+// Times a study from its making; after a crash that it got over, from the beginning of the process
+// that went on.
 class StudyRun {
  public:
   explicit StudyRun(const GlobalOptions& global);
   double Seconds() const;
-  // run.json into `folder`, with the study's own figures merged in.
+  // run.json into `folder`, which is that of --out or below it, with the study's own figures merged
+  // in.
   void Write(const std::filesystem::path& folder, const nlohmann::json& figures) const;
 
  private:

@@ -55,14 +55,10 @@ int RunStudyAreas(StudyAreasCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const AreaStudy study = RunAreaStudy(command.study, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   WriteAreaFiles(study, command.out);
   WriteAreaReport(study, command.out, global.command_line);
-  run.Write(
-      command.out,
-      {{"areas", study.rows.size()},
-       {"tasks", TasksJson(study.tasks)}});
+  run.Write(command.out, {{"areas", study.rows.size()}, {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = AreaSummary(study);
   summary["report"] = report.string();

@@ -115,14 +115,11 @@ int RunStudyHotspot(StudyHotspotCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const HotspotStudy study = RunHotspotStudy(options, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   WriteHotspotStudyFiles(study, command.out);
   WriteHotspotStudyReport(study, command.out, global.command_line);
-  run.Write(
-      command.out,
-      {{"views", study.tasks.done_before + study.tasks.done_now},
-       {"tasks", TasksJson(study.tasks)}});
+  run.Write(command.out, {{"views", study.tasks.done_before + study.tasks.done_now},
+                          {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   const std::string tasks = study.tasks.Text();
   PrintResult(global, HotspotSummary(study),

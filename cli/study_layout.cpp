@@ -56,14 +56,11 @@ int RunStudyLayout(StudyLayoutCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const LayoutStudy study = RunLayoutStudy(scene, command.study, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   WriteLayoutFiles(study, command.out);
-  WriteLayoutReport(study, command.out, global.command_line);
-  run.Write(
-      command.out,
-      {{"poses", study.options.poses.size()},
-       {"tasks", TasksJson(study.tasks)}});
+  WriteLayoutReport(study, scene, command.out, global.command_line);
+  run.Write(command.out,
+            {{"poses", study.options.poses.size()}, {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = LayoutSummary(study);
   summary["report"] = report.string();

@@ -81,11 +81,10 @@ int RunStudyMarkers(StudyMarkersCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const MarkerStudy study = RunMarkerStudy(scene, command.study, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   const StudyCoverage coverage(study);
   WriteStudyFiles(study, coverage, command.out);
-  WriteStudyReport(study, coverage, command.out, global.command_line);
+  WriteStudyReport(study, coverage, scene, command.out, global.command_line);
   const double seconds = run.Seconds();
   run.Write(command.out, Figures(study, seconds));
   nlohmann::json summary = StudySummary(study, coverage);

@@ -41,15 +41,12 @@ int RunStudyMotion(StudyMotionCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const MotionStudy study = RunMotionStudy(command.study, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   WriteMotionFiles(study, command.out);
   WriteMotionReport(study, command.out, global.command_line);
-  run.Write(
-      command.out,
-      {{"frames", study.frames.size()},
-       {"identify_ms", study.identify_ms},
-       {"tasks", TasksJson(study.tasks)}});
+  run.Write(command.out, {{"frames", study.frames.size()},
+                          {"identify_ms", study.identify_ms},
+                          {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   const std::string tasks = study.tasks.Text();
   PrintResult(global, MotionSummary(study),

@@ -47,14 +47,11 @@ int RunStudyStereo(StudyStereoCommand command, const GlobalOptions& global) {
   const auto progress = MakeProgress(global);
   const StudyRun run(global);
   const StereoStudy study = RunStereoStudy(command.study, command.out, *progress);
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   WriteStereoStudyFiles(study, command.out);
   WriteStereoStudyReport(study, command.out, global.command_line);
-  run.Write(
-      command.out,
-      {{"pairs", study.tasks.done_before + study.tasks.done_now},
-       {"tasks", TasksJson(study.tasks)}});
+  run.Write(command.out, {{"pairs", study.tasks.done_before + study.tasks.done_now},
+                          {"tasks", TasksJson(study.tasks)}});
   const std::filesystem::path report = command.out / "report.html";
   nlohmann::json summary = StereoSummary(study);
   const std::string tasks = study.tasks.Text();

@@ -93,24 +93,23 @@ void WarnOfMeshes(const Scenario& scenario, const std::vector<std::string>& mask
     const MaskSpec& spec = scenario.Mask(mask);
     if (std::find(built_in.begin(), built_in.end(), spec.mesh) != built_in.end()) continue;
     for (const std::string& warning : Warnings(CheckMesh(MaskMesh(spec, scenario.file))))
-      fmt::print(stderr, "retrolux: warning: {}: {}\n", spec.mesh, warning);
+      Tell(fmt::format("warning: {}: {}", spec.mesh, warning));
   }
 }
 
 void Warn(const VaultStudy& study) {
-  for (const std::string& warning : study.tasks.warnings)
-    fmt::print(stderr, "retrolux: {}\n", warning);
+  for (const std::string& warning : study.tasks.warnings) Tell(warning);
   if (study.views_cut > 0) {
-    fmt::print(stderr,
-               "retrolux: warning: the mask is larger than the field of view in {} of {} views of "
-               "the optimum; what falls beside a picture counts as not seen\n",
-               study.views_cut, study.views);
+    Tell(fmt::format(
+        "warning: the mask is larger than the field of view in {} of {} views of the optimum; what "
+        "falls beside a picture counts as not seen",
+        study.views_cut, study.views));
   }
   if (study.rotations_too_close > 0) {
-    fmt::print(stderr,
-               "retrolux: warning: in {} orientations the snout is fully contracted and still "
-               "closer to the mask than the gap of {} mm\n",
-               study.rotations_too_close, study.scenario.nozzle.gap_mm);
+    Tell(fmt::format(
+        "warning: in {} orientations the snout is fully contracted and still closer to the mask "
+        "than the gap of {} mm",
+        study.rotations_too_close, study.scenario.nozzle.gap_mm));
   }
 }
 
@@ -132,14 +131,13 @@ std::string Text(const VaultStudy& study) {
 
 nlohmann::json Figures(const VaultStudy& study) {
   const VaultStudy::Rates& rates = study.rates;
-  return {
-      {"placements", rates.placements},
-      {"evaluations", rates.orientations},
-      {"evaluations_per_second", static_cast<double>(rates.orientations) / rates.seconds},
-      {"buffers", rates.buffers_made},
-      {"buffers_asked", rates.buffers_asked},
-      {"buffers_per_second", static_cast<double>(rates.buffers_made) / rates.seconds},
-      {"tasks", TasksJson(study.tasks)}};
+  return {{"placements", rates.placements},
+          {"evaluations", rates.orientations},
+          {"evaluations_per_second", static_cast<double>(rates.orientations) / rates.seconds},
+          {"buffers", rates.buffers_made},
+          {"buffers_asked", rates.buffers_asked},
+          {"buffers_per_second", static_cast<double>(rates.buffers_made) / rates.seconds},
+          {"tasks", TasksJson(study.tasks)}};
 }
 
 // One room after the other; what a mask shows is kept from one to the next.

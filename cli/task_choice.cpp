@@ -42,7 +42,7 @@ std::function<bool(size_t)> ParseShard(const std::string& text) {
   return [i = *shard - 1, n = *shards](size_t task) { return task % n == i; };
 }
 
-std::function<bool(size_t)> ParseTasks(const std::string& text) {
+std::function<bool(size_t)> ParseTasks(const std::string& text, size_t tasks) {
   std::vector<TaskSpan> spans;
   for (size_t from = 0; from <= text.size();) {
     const size_t comma = std::min(text.find(',', from), text.size());
@@ -50,6 +50,10 @@ std::function<bool(size_t)> ParseTasks(const std::string& text) {
     if (!span) {
       throw InputError(
           fmt::format("--tasks {}: expected numbers from 0 and ranges, e.g. 2,4,10-20", text));
+    }
+    if (span->last >= tasks) {
+      throw InputError(fmt::format("--tasks {}: there are {}; expected numbers from 0 to {}", text,
+                                   tasks, tasks - 1));
     }
     spans.push_back(*span);
     from = comma + 1;

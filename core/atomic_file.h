@@ -31,9 +31,26 @@ class AtomicFile {
 // one: for a process that is about to end without running destructors.
 void RemoveUnfinishedFiles();
 
-// Removes, in the folder and below it, the temporary files of processes of this machine that are
-// gone (killed, or the machine went down).
+// Removes, in the folder and below it, the temporary files of processes that are known to be gone
+// (of this host and this container, killed), and those that nobody has written to for a day.
 void RemoveLeftovers(const std::filesystem::path& folder);
+
+// Writes a file piece by piece. TryAgainError if the disk is full.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::filesystem::path& path);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  void Append(std::string_view text);
+  void Commit();
+
+ private:
+  std::filesystem::path path_;
+  AtomicFile file_;
+  int fd_ = -1;
+};
 
 void WriteTextFile(const std::filesystem::path& path, std::string_view text);
 

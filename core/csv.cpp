@@ -1,8 +1,8 @@
 #include "core/csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -44,36 +44,108 @@ void CsvWriter::Write(const std::filesystem::path& path) const {
   WriteTextFile(path, text_);
 }
 
-NumberTable ReadNumberTable(const std::filesystem::path& path) {
-  std::istringstream stream(ReadTextFile(path));
-  NumberTable table;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
+namespace {
+
+// One line of a table after the other, comments and empty lines left out. A quoted cell may hold
+// commas, quotes (doubled) and line ends.
+class TableReader {
+ public:
+  explicit TableReader(const std::filesystem::path& path)
+      : path_(path), text_(ReadTextFile(path)) {}
+
+  // Empty at the end.
+  std::vector<std::string> NextRow() {
+    SkipComments();
     std::vector<std::string> cells;
-    std::istringstream split(line);
-    for (std::string cell; std::getline(split, cell, ',');) cells.push_back(cell);
-    const std::string place = fmt::format("line {}", number);
-    if (table.columns.empty()) {
-      table.columns = cells;
-      continue;
+    while (at_ < text_.size()) {
+      cells.push_back(text_[at_] == '"' ? Quoted() : Plain());
+      if (at_ >= text_.size()) break;
+      const char end = text_[at_++];
+      if (end == ',') continue;
+      ++line_;
+      break;
     }
+    return cells;
+  }
+
+  std::string Place() const { return fmt::format("line {}", row_line_); }
+
+ private:
+  void SkipComments() {
+    while (at_ < text_.size() && (text_[at_] == '#' || text_[at_] == '\n' || text_[at_] == '\r')) {
+      at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1;
+      ++line_;
+    }
+    row_line_ = line_;
+  }
+
+  std::string Plain() {
+    const size_t end = std::min(text_.find_first_of(",\n", at_), text_.size());
+    std::string cell = text_.substr(at_, end - at_);
+    at_ = end;
+    if (!cell.empty() && cell.back() == '\r') cell.pop_back();
+    return cell;
+  }
+
+  std::string Quoted() {
+    std::string cell;
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\n') ++line_;
+      if (text_[at_] != '"') {
+        cell += text_[at_];
+      } else if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
+        cell += text_[at_++];
+      } else {
+        ++at_;
+        return cell + Plain();
+      }
+    }
+    throw InputError::At(path_, Place(), "a quote that does not end", "one");
+  }
+
+  std::filesystem::path path_;
+  std::string text_;
+  size_t at_ = 0;
+  int line_ = 1, row_line_ = 1;
+};
+
+template <typename Table, typename Cell>
+Table ReadTable(const std::filesystem::path& path, Cell cell) {
+  TableReader reader(path);
+  Table table;
+  table.columns = reader.NextRow();
+  for (auto cells = reader.NextRow(); !cells.empty(); cells = reader.NextRow()) {
     if (cells.size() != table.columns.size()) {
-      throw InputError::At(path, place, fmt::format("{} cells", cells.size()),
+      throw InputError::At(path, reader.Place(), fmt::format("{} cells", cells.size()),
                            fmt::format("{} ({})", table.columns.size(), JoinNames(table.columns)));
     }
-    std::vector<double> row;
-    for (const std::string& cell : cells) {
-      double value = 0.0;
-      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
-        throw InputError::At(path, place, fmt::format("'{}'", cell), "a number");
-      }
-      row.push_back(value);
-    }
-    table.rows.push_back(std::move(row));
+    auto& row = table.rows.emplace_back();
+    for (const std::string& text : cells) row.push_back(cell(text, reader.Place()));
   }
+  return table;
+}
+
+}  // namespace
+
+std::optional<double> CellNumber(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+TextTable ReadTextTable(const std::filesystem::path& path) {
+  return ReadTable<TextTable>(path,
+                              [](const std::string& cell, const std::string&) { return cell; });
+}
+
+NumberTable ReadNumberTable(const std::filesystem::path& path) {
+  auto table = ReadTable<NumberTable>(path, [&](const std::string& cell, const std::string& place) {
+    const std::optional<double> value = CellNumber(cell);
+    if (!value || !std::isfinite(*value))
+      throw InputError::At(path, place, fmt::format("'{}'", cell), "a number");
+    return *value;
+  });
   if (table.rows.empty()) throw InputError::At(path, "", "no rows", "a header and numbers");
   return table;
 }

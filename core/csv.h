@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,17 @@ class CsvWriter {
   size_t columns_;
   std::string text_;
 };
+
+// Any table: cells as they stand, quotes taken off. InputError if a row has more or fewer cells
+// than the header, or a quote does not end.
+struct TextTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+TextTable ReadTextTable(const std::filesystem::path& path);
+
+// The number that a cell holds, the whole of it; nothing for text and for an empty cell.
+std::optional<double> CellNumber(const std::string& cell);
 
 // Numbers only, as the data files under materials/data. InputError with file and line.
 struct NumberTable {

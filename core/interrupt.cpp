@@ -3,19 +3,14 @@
 #include <unistd.h>
 
 #include <array>
-#include <string_view>
 #include <thread>
 
 #include "core/atomic_file.h"
+#include "core/say.h"
 
 namespace retrolux {
 
 namespace {
-
-void Say(std::string_view text) {
-  // Not through stdio, whose lock a thread may hold that is drawing progress.
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-}
 
 [[noreturn]] void WaitAndEnd(const sigset_t& signals) {
   int signal = 0;
@@ -23,7 +18,7 @@ void Say(std::string_view text) {
   }
   RemoveUnfinishedFiles();
   if (::isatty(STDERR_FILENO) != 0) Say("\n");  // leaves the progress bar's line
-  Say("retrolux: interrupted; what is finished is kept, the same command goes on from there\n");
+  Tell("interrupted; what is finished is kept, the same command goes on from there");
   ::_exit(128 + signal);
 }
 

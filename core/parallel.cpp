@@ -25,6 +25,9 @@ Progress& NoProgress() {
 }
 
 void ParallelFor(int64_t count, const std::function<void(int64_t)>& body) {
+  // A context of its own: an exception that ends an outer loop must not cut short the loops within
+  // its other rounds, which would take half of their work for the whole.
+  tbb::task_group_context own(tbb::task_group_context::isolated);
   // Isolated: a thread that waits for the end of a loop within a loop must not begin another round
   // of the outer one, whose memory it would hold beside its own.
   tbb::this_task_arena::isolate([&] {
@@ -33,7 +36,7 @@ void ParallelFor(int64_t count, const std::function<void(int64_t)>& body) {
         [&](const tbb::blocked_range<int64_t>& range) {
           for (int64_t i = range.begin(); i != range.end(); ++i) body(i);
         },
-        tbb::simple_partitioner());
+        tbb::simple_partitioner(), own);
   });
 }
 

@@ -23,7 +23,8 @@ class Progress {
 Progress& NoProgress();
 
 // body(i) for i in [0, count), in any order, on the threads that LimitThreads allows. An exception
-// of one call stops the loop and is thrown again here.
+// of one call stops the loop and is thrown again here; a loop within another one is not stopped by
+// what happens outside of it.
 void ParallelFor(int64_t count, const std::function<void(int64_t)>& body);
 
 // While it lives, at most `threads` threads work (0: UsableThreads).

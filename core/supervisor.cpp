@@ -11,12 +11,13 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/say.h"
 
 namespace retrolux {
 
@@ -97,13 +98,12 @@ pid_t StartChild(const sigset_t& signals, const sigset_t& before,
   if (child > 0) return child;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no work goes on whose supervisor was killed
   if (::getppid() != parent) ::_exit(1);
+  // Ending signals stay blocked until the thread is there that takes them.
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  BlockEndingSignals();
   EndOnSignals(signals);
   const int code = work();
   // Not exit: libraries that made threads when they were loaded wait for them at exit, and a child
   // has only the thread that forked.
-  std::fflush(nullptr);
   ::_exit(code);
 }
 
@@ -111,32 +111,52 @@ pid_t StartChild(const sigset_t& signals, const sigset_t& before,
 int WaitFor(pid_t child, const sigset_t& signals) {
   sigset_t all = signals;
   ::sigaddset(&all, SIGCHLD);
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
+  while (true) {
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR)
+      throw std::runtime_error(fmt::format("lost its process ({})", std::strerror(errno)));
     const int signal = ::sigwaitinfo(&all, nullptr);
     if (signal > 0 && signal != SIGCHLD) ::kill(child, signal);
   }
-  return status;
+}
+
+// What a child that died of a signal makes of the work: go on, or its exit code.
+std::optional<int> AfterSignal(int signal, const sigset_t& signals) {
+  constexpr int kTryAgain = 75;
+  if (::sigismember(&signals, signal) == 1) return 128 + signal;
+  const bool again = LearnFrom(signal);
+  const std::string what = fmt::format("crashed ({})", ::strsignal(signal));
+  if (again) {
+    Tell(what + "; going on, what it was at alone and last");
+    return std::nullopt;
+  }
+  // Nobody's bug but that of a killer, which mostly is the machine that is short of memory.
+  if (signal == SIGKILL) {
+    Tell("killed from outside (out of memory?); try again");
+    return kTryAgain;
+  }
+  Tell(what + "; please report it");
+  return 1;
 }
 
 }  // namespace
 
 int Supervise(const std::function<int()>& work) {
   board = MakeBoard();
+  // Where the end of a child is ignored, as some launchers have it, nobody is told of it.
+  std::signal(SIGCHLD, SIG_DFL);
+  const sigset_t signals = BlockEndingSignals();
   sigset_t before, child_ends;
   ::pthread_sigmask(SIG_SETMASK, nullptr, &before);
   ::sigemptyset(&child_ends);
   ::sigaddset(&child_ends, SIGCHLD);
   ::pthread_sigmask(SIG_BLOCK, &child_ends, nullptr);
-  const sigset_t signals = BlockEndingSignals();
   while (true) {
     const int status = WaitFor(StartChild(signals, before, work), signals);
     if (WIFEXITED(status)) return WEXITSTATUS(status);
-    const int signal = WTERMSIG(status);
-    const bool again = LearnFrom(signal);
-    fmt::print(stderr, "retrolux: crashed ({}){}\n", ::strsignal(signal),
-               again ? "; going on, what it was at alone and last" : "; please report it");
-    if (!again) return 1;
+    if (const auto code = AfterSignal(WTERMSIG(status), signals)) return *code;
   }
 }
 

@@ -10,8 +10,9 @@
 namespace retrolux {
 
 // Runs `work` in a child process, again as long as it crashes, and returns its exit code. A crash
-// outside of every task is not tried again: exit code 1. Ending signals are handed on to the child.
-// To be called before the process has made threads.
+// outside of every task is not tried again: exit code 1, or 75 if it was a SIGKILL from outside.
+// Ending signals are handed on to the child (128 + signal). What `work` prints must be flushed when
+// it returns. To be called before the process has made threads.
 int Supervise(const std::function<int()>& work);
 
 // What the tasks of a supervised process tell and ask. Without a supervisor nothing is told, and no

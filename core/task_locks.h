@@ -5,14 +5,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace retrolux {
 
 class TaskLocks {
  public:
-  // Opens FOLDER/tasks/.lock. InputError if it can't be made.
-  explicit TaskLocks(const std::filesystem::path& folder);
+  // Opens FOLDER/tasks/.lock. InputError if it can't be made. While `begin` is called no other
+  // process can begin here; `alone`: none is here. What it throws goes on.
+  TaskLocks(const std::filesystem::path& folder, const std::function<void(bool alone)>& begin);
   ~TaskLocks();
   TaskLocks(const TaskLocks&) = delete;
   TaskLocks& operator=(const TaskLocks&) = delete;
@@ -21,9 +23,6 @@ class TaskLocks {
   // a file system without locks (then work may be done twice; it gives the same files).
   bool TryHold(const std::string& id) const;
   void Release(const std::string& id) const;
-
-  // Whether no other process has these locks open now.
-  bool Alone() const;
 
  private:
   int fd_ = -1;

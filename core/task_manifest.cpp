@@ -120,18 +120,28 @@ Json ReadManifest(const fs::path& folder) {
   return json.is_discarded() ? Json() : json;
 }
 
-void CheckSameWork(const TaskStore& store) {
-  const Json before = ReadManifest(store.Folder()), now = HeadingOf(store);
-  if (!before.is_object()) return;
+namespace {
+
+// How the work that the folder was begun with differs; empty: not at all, or there is none.
+std::string ChangesOf(const Json& before, const TaskStore& store) {
+  if (!before.is_object()) return "";
+  const Json now = HeadingOf(store);
   std::vector<std::string> changes;
   for (const char* key : {"study", "version", "options"}) {
     const std::string change = Changes(before.value(key, Json()), now.at(key));
     if (!change.empty()) changes.push_back(fmt::format("{}: {}", key, change));
     if (before.value("study", Json()) != now.at("study")) break;  // with options of its own
   }
+  return fmt::format("{}", fmt::join(changes, "; "));
+}
+
+}  // namespace
+
+void CheckSameWork(const TaskStore& store) {
+  const Json before = ReadManifest(store.Folder());
+  const std::string changes = ChangesOf(before, store);
   if (changes.empty() || !HasResults(before, store.Folder())) return;
-  throw InputError::At(store.Folder(), "",
-                       fmt::format("holds results of other work; {}", fmt::join(changes, "; ")),
+  throw InputError::At(store.Folder(), "", "holds results of other work; " + changes,
                        "another folder, or the options that this one was begun with");
 }
 
@@ -229,9 +239,10 @@ class TaskManifest::Stage {
       }
       sink_(task, std::move(result));
     } catch (const InputError& error) {
+      const bool ours = !loop_.chosen || loop_.chosen(task);
       const std::lock_guard held(lock_);
-      manifest_.report_.warnings.push_back(
-          fmt::format("{}; '{}' is done again", error.what(), tasks_[task].name));
+      manifest_.report_.warnings.push_back(fmt::format(
+          "{}; '{}' is {} again", error.what(), tasks_[task].name, ours ? "done" : "to be done"));
       bad_[task] = 1;
       return false;
     }
@@ -314,15 +325,28 @@ TaskManifest::TaskManifest(fs::path folder, std::string study, Json options)
 
 TaskManifest::TaskManifest(TaskStore store)
     : store_(std::move(store)), manifest_(HeadingOf(store_)) {
-  CheckSameWork(store_);
+  CheckSameWork(store_);  // before there is a folder
   EnsureWritableFolder(store_.Folder() / "tasks");
-  locks_ = std::make_unique<TaskLocks>(store_.Folder());
-  if (locks_->Alone()) RemoveLeftovers(store_.Folder());
+  locks_ = std::make_unique<TaskLocks>(store_.Folder(), [&](bool alone) { Settle(alone); });
+  RemoveLeftovers(store_.Folder());
 }
 
-// A killed process may have held the locks still when this one began.
+// A killed process may still have been there when this one began.
 TaskManifest::~TaskManifest() {
-  if (locks_->Alone()) RemoveLeftovers(store_.Folder());
+  RemoveLeftovers(store_.Folder());
+}
+
+// What this folder is for is settled by the first who begins, before it has any result.
+void TaskManifest::Settle(bool alone) const {
+  CheckSameWork(store_);
+  const Json before = ReadManifest(store_.Folder());
+  const std::string changes = ChangesOf(before, store_);
+  if (before.is_object() && changes.empty()) return;
+  if (before.is_object() && !alone) {
+    throw InputError::At(store_.Folder(), "", "another process is at other work here; " + changes,
+                         "another folder, or its options");
+  }
+  WriteTextFile(store_.Folder() / "manifest.json", manifest_.dump(2) + "\n");
 }
 
 std::vector<Json> TaskManifest::Run(const std::string& stage, const std::vector<Task>& tasks,

@@ -65,8 +65,8 @@ class TaskManifest {
   // on any number of threads. A result must survive being written as JSON: finite numbers, UTF-8.
   using Work = std::function<nlohmann::json(size_t task)>;
 
-  // For `options` see TaskStore. Makes the folder. InputError if it can't be written to, and as
-  // CheckSameWork.
+  // For `options` see TaskStore. Makes the folder and its manifest. InputError if it can't be
+  // written to, and as CheckSameWork.
   TaskManifest(std::filesystem::path folder, std::string study, nlohmann::json options);
   explicit TaskManifest(TaskStore store);
   ~TaskManifest();
@@ -93,6 +93,7 @@ class TaskManifest {
  private:
   class Stage;
 
+  void Settle(bool alone) const;
   std::vector<StoredTask> Enter(const std::string& stage, const std::vector<Task>& tasks);
 
   TaskStore store_;
@@ -103,7 +104,8 @@ class TaskManifest {
 };
 
 // InputError if the store's folder holds results of another study, version or of other options; the
-// message says what changed.
+// message says what changed. A TaskManifest also refuses where another process is at such work and
+// has no result yet.
 void CheckSameWork(const TaskStore& store);
 
 // What FOLDER/manifest.json says, null if there is none or it can't be read.

@@ -1,6 +1,7 @@
 #include "renderer/render_files.h"
 
 #include "core/hash.h"
+#include "renderer/camera_response.h"
 
 namespace retrolux {
 
@@ -97,6 +98,8 @@ ExrImage ShotExr(const CameraSpec& camera, const IdBuffers& ids, const Film* fil
   attributes["retrolux/spp"] = std::to_string(info.samples_per_pixel);
   attributes["retrolux/edge_spp"] = std::to_string(info.edge_samples_per_pixel);
   attributes["retrolux/exposure_s"] = fmt::format("{}", info.exposure_s);
+  attributes["retrolux/gain_dn_e"] = fmt::format("{}", GainDnPerElectron(camera.sensor));
+  attributes["retrolux/offset_dn"] = fmt::format("{}", camera.sensor.offset_dn);
   return image;
 }
 

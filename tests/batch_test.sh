@@ -195,6 +195,85 @@ says "it says so" stdout.txt 'the time was over before [0-9]+ of 24'
 run dataset run limited
 as_whole "after the time limit: goes on" limited
 
+plan begun
+exits "no time at all: nothing is begun" 75 dataset run begun --time-limit 0s
+says "it says so" stdout.txt 'the time was over before 24 of 24'
+exits "a time limit below zero" 2 dataset run limited --time-limit=-5min
+exits "a scene that there is not" 2 dataset run limited --tasks 3,24
+says "it says which there are" stderr.txt 'there are 24; expected numbers from 0 to 23'
+
+# Other options while somebody is at work and has no result yet.
+sed 's/"spp": 4/"spp": 3000/; s/"scenes": 24/"scenes": 3/' batch.json >slow.json
+run dataset plan slow.json --out mixed
+"$retrolux" dataset run mixed --threads 1 >other_stdout.txt 2>other_stderr.txt </dev/null &
+pid=$!
+sleep 0.7
+exits "other samples beside a run without results" 2 dataset run mixed --spp 5
+says "it says so" stderr.txt 'another process is at other work here; .*/spp was 3000, is 5'
+sed 's/"spp": 3000/"spp": 6/' slow.json >slow_too.json
+exits "another plan beside a run without results" 2 dataset plan slow_too.json --out mixed
+cmp -s mixed/config.json slow.json && good "its config is still there" || bad "its config is still there" "replaced"
+kill -TERM $pid
+wait $pid
+
+# dataset.json is looked at by bytes, and missed.
+cp -r whole indexed
+sed -i 's/CC0-1.0/CC0-1.1/' indexed/dataset.json
+exits "verify: a changed index" 3 dataset verify indexed
+truncate -s -10 indexed/dataset.json
+exits "verify: an index cut off" 3 dataset verify indexed
+rm indexed/dataset.json
+exits "verify: no index" 4 dataset verify indexed
+says "it says so" stderr.txt 'not done: dataset.json'
+
+# A damaged copy is passed over if another folder has the scene whole.
+for i in 1 2; do
+  plan copy$i
+  cp -r part2/tasks part2/images copy$i/
+done
+plan target
+cp -r part1/tasks part1/images target/
+victim=$(node -e 'console.log(JSON.parse(fs.readFileSync("whole/dataset.json")).scenes[4].pictures[0].file)')
+for folder in copy1 target; do rm -f "$folder/$victim"; printf 'no picture' >"$folder/$victim"; done
+exits "merge: only a damaged copy" 3 dataset merge target copy1
+says "it says which" stderr.txt 'copy1: scene-00004 .*not taken'
+exits "merge: another copy is whole" 0 dataset merge target copy1 copy2
+as_whole "what was merged" target
+
+# ------------------------------------------------------------------------------------------------ nobody reads, no room to tell
+plan unread
+"$retrolux" dataset run unread --threads 2 --progress json 2> >(head -1 >/dev/null) >stdout.txt </dev/null &&
+  good "a log whose reader has gone" || bad "a log whose reader has gone" "exit code $?"
+as_whole "what it made" unread
+(sleep 0.2; "$retrolux" dataset status whole 2>stderr.txt; echo $? >code.txt) | true
+sleep 0.5
+[ "$(cat code.txt)" = 0 ] && good "a result that nobody reads" || bad "a result that nobody reads" "exit code $(cat code.txt)"
+"$retrolux" dataset status nowhere 2>/dev/full >stdout.txt
+[ $? -eq 2 ] && good "an error that can't be told" || bad "an error that can't be told" "another exit code"
+"$retrolux" dataset verify whole --json >/dev/full 2>stderr.txt
+[ $? -eq 75 ] && good "a result without room" || bad "a result without room" "another exit code"
+timeout 20 env --ignore-signal=CHLD "$retrolux" dataset verify nowhere >stdout.txt 2>stderr.txt
+[ $? -eq 2 ] && good "a launcher that ignores children" || bad "a launcher that ignores children" "another exit code"
+if unshare -m true 2>/dev/null; then
+  plan loud
+  unshare -m bash -c "mkdir -p tiny && mount -t tmpfs -o size=4k tmpfs tiny && head -c 3800 /dev/zero >tiny/log &&
+    '$retrolux' dataset run loud --threads 3 --progress json 2>>tiny/log >stdout.txt; echo \$? >code.txt"
+  [ "$(cat code.txt)" = 0 ] && good "a log on a full disk" || bad "a log on a full disk" "exit code $(cat code.txt)"
+  as_whole "what it made" loud
+fi
+wrong=0
+plan early
+for ((i = 0; i < 40; ++i)); do
+  "$retrolux" dataset run early --tasks 0 --threads 1 >stdout.txt 2>stderr.txt </dev/null &
+  pid=$!
+  sleep "0.0$((i % 10))$((RANDOM % 10))"
+  kill -TERM $pid 2>/dev/null
+  wait $pid
+  case $? in 0 | 143) ;; *) wrong=$((wrong + 1)) ;; esac
+  rm -rf early/tasks/[0-9a-f]*.json early/images/*
+done
+[ $wrong -eq 0 ] && good "SIGTERM at 40 moments of the beginning: 143" || bad "SIGTERM at the beginning" "$wrong of 40: $(cat stderr.txt)"
+
 # ------------------------------------------------------------------------------------------------------- clocks that jump
 if command -v faketime >/dev/null; then
   plan clock
@@ -233,6 +312,17 @@ wait $pid
 [ $? -eq 0 ] && good "a process that dies once is replaced" || bad "a process that dies once is replaced" "$(head -c 300 stderr.txt)"
 says "it says so" stderr.txt 'crashed \(Segmentation fault\); going on'
 as_whole "what both made" struck
+# The time limit is the program's, whatever it got over: struck at 2.5 s of 3 s, it ends before 5.5 s.
+sed 's/"spp": 4/"spp": 30/; s/"scenes": 24/"scenes": 200/' batch.json >longer.json
+run dataset plan longer.json --out struck_late
+begun=$(date +%s%N)
+"$retrolux" dataset run struck_late --threads 1 --time-limit 3s >stdout.txt 2>stderr.txt </dev/null &
+pid=$!
+sleep 2.5
+pkill -SEGV -P $pid
+wait $pid
+code=$? ms=$((($(date +%s%N) - begun) / 1000000))
+[ $code -eq 75 ] && [ $ms -lt 5400 ] && good "a time limit across a crash" || bad "a time limit across a crash" "exit code $code after $ms ms"
 
 # ------------------------------------------------------------------------------------------------------ logs and threads
 plan logged
@@ -255,6 +345,12 @@ export RETROLUX=$retrolux
 if command -v parallel >/dev/null; then
   emit_parallel/jobs/parallel/run.sh >stdout.txt 2>stderr.txt || bad "GNU parallel" "$(head -c 300 stderr.txt)"
   as_whole "GNU parallel" emit_parallel
+  mkdir "my tools" && cp "$retrolux" "my tools/retrolux"
+  run dataset plan batch.json --out emit_spaced --emit parallel --shards 1
+  rm -rf emit_spaced/tasks/[0-9a-f]*.json
+  RETROLUX_DATA=${RETROLUX_DATA:-$(dirname "$tests")} RETROLUX="$work/my tools/retrolux" emit_spaced/jobs/parallel/run.sh >stdout.txt 2>stderr.txt ||
+    bad "a program in a folder with a space" "$(head -c 300 stderr.txt)"
+  as_whole "a program in a folder with a space" emit_spaced
 else
   skip "GNU parallel" "not there"
 fi

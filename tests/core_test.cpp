@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 #include <numeric>
+#include <thread>
 
 #include "core/atomic_file.h"
 #include "core/camera_model.h"
@@ -242,6 +244,24 @@ TEST(Csv, NumbersWithSourceComments) {
               testing::HasSubstr("line 2: 1 cells; expected 2 (a, b)"));
 }
 
+TEST(Csv, TextsAsTheWriterQuotesThem) {
+  CsvWriter csv({"name", "note"});
+  csv.Row({"a, b", "says \"no\""});
+  csv.Row({"two\nlines", ""});
+  csv.Write(Scratch("q.csv"));
+  const TextTable table = ReadTextTable(Scratch("q.csv"));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"name", "note"}));
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"a, b", "says \"no\""}));
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"two\nlines", ""}));
+  EXPECT_EQ(CellNumber("4.5"), 4.5);
+  EXPECT_FALSE(CellNumber("4.5 mm"));
+  EXPECT_FALSE(CellNumber(""));
+  WriteTextFile(Scratch("q.csv"), "a\n1\n\"open\n");
+  EXPECT_THAT(MessageOf([] { ReadTextTable(Scratch("q.csv")); }),
+              testing::HasSubstr("line 3: a quote that does not end"));
+}
+
 TEST(JsonReader, ErrorsNamePlaceFoundAndExpected) {
   const auto read = [](const std::string& text, auto use) {
     return MessageOf([&] {
@@ -263,6 +283,26 @@ TEST(JsonReader, ErrorsNamePlaceFoundAndExpected) {
   EXPECT_EQ(read(R"({})", spp), "s.json: /: found no key 'spp'; expected 'spp'");
   EXPECT_THAT(read(R"({"spp": NaN})", spp), testing::HasSubstr("line 1, column"));
   EXPECT_THAT(read(R"({"spp": 1e999})", spp), testing::HasSubstr("expected finite numbers"));
+}
+
+// What ends the outer loop does not cut short the loops within it: each of them is done whole, or
+// not begun. (oneTBB hands a cancellation down otherwise.)
+TEST(Parallel, AnErrorOutsideLeavesInnerLoopsWhole) {
+  std::atomic<int> cut{0}, begun{0};
+  EXPECT_THROW(ParallelFor(64,
+                           [&](int64_t i) {
+                             std::atomic<int> steps{0};
+                             ++begun;
+                             ParallelFor(200, [&](int64_t) {
+                               std::this_thread::sleep_for(std::chrono::microseconds(50));
+                               ++steps;
+                             });
+                             if (steps != 200) ++cut;
+                             if (i == 1) throw InputError("one");
+                           }),
+               InputError);
+  EXPECT_GT(begun, 1);
+  EXPECT_EQ(cut, 0);
 }
 
 TEST(Parallel, AllStepsOnceAndErrorsComeThrough) {

@@ -585,8 +585,8 @@ TEST_F(TinyDataset, FoldersOfOnePlanAreMerged) {
   DatasetRunOptions options;
   options.chosen = [](size_t scene) { return scene != 0; };
   Run(second, options);
-  MergeDatasets(first, {second}, NoProgress());
-  const DatasetFaults faults = VerifyDataset(first, NoProgress());
+  EXPECT_TRUE(MergeDatasets(first, {second}, NoProgress()).empty());
+  const DatasetFaults faults = VerifyDataset(first, IndexToo::kNo, NoProgress());
   EXPECT_EQ(faults.checked, 4u);
   EXPECT_TRUE(faults.damaged.empty() && faults.missing.empty());
   WriteDatasetIndex(DatasetPlan(first));
@@ -600,8 +600,9 @@ TEST_F(TinyDataset, WhatIsDamagedIsNotMerged) {
   options.chosen = [](size_t scene) { return scene == 1; };
   Run(second, options);
   WriteTextFile(second / DatasetPlan(second).Read(1).pictures[1].file, "no picture");
-  EXPECT_THAT(MessageOf([&] { MergeDatasets(first, {second}, NoProgress()); }),
-              HasSubstr("scene-00001 (number 1): images/scene-00001_camera-5.png: not what was"));
+  EXPECT_THAT(MergeDatasets(first, {second}, NoProgress()),
+              testing::ElementsAre(HasSubstr(
+                  "scene-00001 (number 1): images/scene-00001_camera-5.png: not what was")));
   EXPECT_EQ(StateOf(DatasetPlan(first)).ScenesDone(), 2u);
 }
 
@@ -615,7 +616,7 @@ TEST_F(TinyDataset, VerifyFindsWhatIsDamagedAndRunMakesItAgain) {
   const fs::path result = plan.Store().ResultFile(plan.Store().Place(plan.Tasks()[2]));
   fs::resize_file(result, fs::file_size(result) / 2);
   fs::remove(plan.Store().ResultFile(plan.Store().Place(plan.Tasks()[3])));
-  const DatasetFaults faults = VerifyDataset(folder, NoProgress());
+  const DatasetFaults faults = VerifyDataset(folder, IndexToo::kYes, NoProgress());
   EXPECT_EQ(faults.checked, 3u);
   EXPECT_THAT(faults.damaged,
               testing::ElementsAre(
@@ -624,14 +625,21 @@ TEST_F(TinyDataset, VerifyFindsWhatIsDamagedAndRunMakesItAgain) {
                   HasSubstr("scene-00002 (number 2): " + result.string() + ": damaged")));
   EXPECT_THAT(faults.missing, testing::ElementsAre("scene-00003 (number 3)"));
   EXPECT_EQ(Run(folder, {}).tasks.done_now, 4);
-  EXPECT_TRUE(VerifyDataset(folder, NoProgress()).damaged.empty());
+  EXPECT_TRUE(VerifyDataset(folder, IndexToo::kYes, NoProgress()).damaged.empty());
   ExpectTheWholeSet(folder);
   std::string index = ReadTextFile(folder / "dataset.json");
   const size_t place = index.find("\"incidence_deg\":") + 17;
   index[place] = index[place] == '1' ? '2' : '1';
   WriteTextFile(folder / "dataset.json", index);
-  EXPECT_THAT(VerifyDataset(folder, NoProgress()).damaged,
+  EXPECT_THAT(VerifyDataset(folder, IndexToo::kYes, NoProgress()).damaged,
               testing::ElementsAre("dataset.json: not what the results say"));
+  index.resize(index.size() / 2);
+  WriteTextFile(folder / "dataset.json", index);
+  EXPECT_THAT(VerifyDataset(folder, IndexToo::kYes, NoProgress()).damaged,
+              testing::ElementsAre("dataset.json: not what the results say"));
+  fs::remove(folder / "dataset.json");
+  EXPECT_THAT(VerifyDataset(folder, IndexToo::kYes, NoProgress()).missing,
+              testing::ElementsAre(HasSubstr("dataset.json")));
 }
 
 TEST_F(TinyDataset, AnotherPlanIsRefusedAndToldWhatChanged) {

@@ -216,7 +216,62 @@ void AddPictures(Report& report) {
   report.PictureGrid("Marker 3 at growing incidence angles, cut out of the pictures.", crops, 6);
   report.PictureGrid("Whole pictures of 640 x 480 pixels.", whole, 2,
                      {{"marker", "#b4b4b4"}, {"mask", "#1a1a1a"}});
+  report.Comparison("Two pictures and a slider.", {"frontal", MarkerPicture(640, 480, 60, 1.0, 11)},
+                    {"oblique", MarkerPicture(640, 480, 60, 0.5, 12)});
   report.Picture("One picture by itself.", MarkerPicture(320, 240, 60, 0.8, 13));
+}
+
+// A wave with a hole, and the ids of its quarters.
+void AddChannels(Report& report) {
+  constexpr int kWidth = 96, kHeight = 64;
+  ReportChannel wave, slope, quarter;
+  wave.name = "electrons.Y";
+  wave.unit = "e-";
+  slope.name = "difference";
+  slope.kind = ReportChannel::Kind::kDifference;
+  quarter.name = "id.object";
+  quarter.kind = ReportChannel::Kind::kIds;
+  quarter.names = {"upper left", "upper right", "lower left"};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool hole = std::hypot(x - 60, y - 20) < 6.0;
+      wave.values.push_back(hole ? std::nanf("") : static_cast<float>(100 * x + y));
+      slope.values.push_back(static_cast<float>(x - kWidth / 2));
+      quarter.values.push_back(
+          static_cast<float>((x < kWidth / 2 ? 0 : 1) + (y < kHeight / 2 ? 0 : 2)));
+    }
+  }
+  report.Channels("A picture's channels: values, a difference, ids.", kWidth, kHeight,
+                  {wave, slope, quarter});
+}
+
+// Two triangles before a camera, the second of which comes nearer.
+void AddRoom(Report& report) {
+  RoomFigure room;
+  room.choice = "Distance";
+  const auto pane = [](double x) -> nlohmann::json {
+    return {{"type", "mesh3d"},
+            {"x", {x, x, x, x}},
+            {"y", {-50, 50, 50, -50}},
+            {"z", {-50, -50, 50, 50}},
+            {"i", {0, 0}},
+            {"j", {1, 2}},
+            {"k", {2, 3}},
+            {"intensity", {1, 2}},
+            {"intensitymode", "cell"},
+            {"cmin", 0},
+            {"cmax", 2}};
+  };
+  room.traces.push_back({{"type", "scatter3d"},
+                         {"mode", "markers+text"},
+                         {"name", "camera"},
+                         {"x", {300}},
+                         {"y", {0}},
+                         {"z", {0}},
+                         {"text", {"camera"}}});
+  room.states.push_back({"far", nlohmann::json::array({pane(0.0)})});
+  room.states.push_back({"near", nlohmann::json::array({pane(100.0)})});
+  report.Room("A room with a choice of two states.", room, 420);
 }
 
 void AddTables(Report& report) {
@@ -253,6 +308,8 @@ Report DemoReport() {
   AddMaps(report);
   AddPlots(report);
   AddPictures(report);
+  AddChannels(report);
+  AddRoom(report);
   AddTables(report);
   report.Heading("How this was made");
   report.Paragraph(

@@ -367,20 +367,48 @@ TEST_F(TaskManifestTest, TwoRunsAtOnceShareTheTasks) {
   EXPECT_GT(reports[1].done_now, 0);
 }
 
-// A process that is gone has left a temporary file; one of a process that lives is not touched.
+// A process that is gone has left a temporary file; one of a process that lives is not touched, nor
+// one from elsewhere, unless nobody has written to it for a day.
 TEST_F(TaskManifestTest, LeftoversOfDeadProcessesAreRemoved) {
   RunAll(folder_, Tasks(1));
+  const fs::path tasks = folder_ / "tasks";
   const pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
+  if (child == 0) {
+    const AtomicFile dead(tasks / "dead.json");
+    std::ofstream(dead.Temporary()) << "half";
+    ::_exit(0);
+  }
   ::waitpid(child, nullptr, 0);
-  const fs::path dead = folder_ / "tasks" / fmt::format(".x.{}-0.part.json", child);
-  const fs::path alive = folder_ / "tasks" / fmt::format(".x.{}-99.part.json", ::getpid());
-  const fs::path other = folder_ / "tasks" / ".x.part.json";
-  for (const fs::path& file : {dead, alive, other}) std::ofstream(file) << "half";
+  const AtomicFile alive(tasks / "alive.json");
+  const fs::path elsewhere = tasks / ".x.0123ab-4567cd-1-89abcdef.part.json";
+  const fs::path old = tasks / ".x.0123ab-4567cd-2-89abcdef.part.json";
+  const fs::path other = tasks / ".x.part.json";
+  for (const fs::path& file : {alive.Temporary(), elsewhere, old, other})
+    std::ofstream(file) << "half";
+  fs::last_write_time(old, fs::last_write_time(elsewhere) - std::chrono::hours(25));
   RunAll(folder_, Tasks(1));
-  EXPECT_FALSE(fs::exists(dead));
-  EXPECT_TRUE(fs::exists(alive));
-  EXPECT_TRUE(fs::exists(other));
+  std::set<std::string> left;
+  for (const fs::directory_entry& file : fs::directory_iterator(tasks)) {
+    const std::string name = file.path().filename();
+    if (name.find(".part") != std::string::npos) left.insert(name);
+  }
+  EXPECT_EQ(left, (std::set<std::string>{alive.Temporary().filename(), elsewhere.filename(),
+                                         other.filename()}));
+}
+
+// Two at once with other options: the second is refused before there is any result.
+TEST_F(TaskManifestTest, OtherWorkIsRefusedWhileSomebodyIsAtWork) {
+  const TaskManifest first(folder_, "roots", {{"seed", 1}});
+  EXPECT_THAT(MessageOf([&] { TaskManifest(folder_, "roots", {{"seed", 2}}); }),
+              HasSubstr("another process is at other work here; options: /seed was 1, is 2"));
+  const TaskManifest same(folder_, "roots", {{"seed", 1}});
+}
+
+// A folder that was begun and has no result may be used for other work.
+TEST_F(TaskManifestTest, OtherWorkIsTakenWhereNothingWasDone) {
+  { const TaskManifest first(folder_, "roots", {{"seed", 1}}); }
+  const TaskManifest other(folder_, "roots", {{"seed", 2}});
+  EXPECT_EQ(ReadManifest(folder_).at("options").at("seed"), 2);
 }
 
 // Supervised work of twenty tasks, one of which crashes it each time. Returns its exit code; what
@@ -424,6 +452,19 @@ TEST_F(TaskManifestTest, ACrashOutsideOfTasksIsNotTriedAgain) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto crash = [] { return std::raise(SIGABRT); };
   EXPECT_EXIT(std::exit(Supervise(crash)), testing::ExitedWithCode(1), "please report it");
+  const auto killed = [] { return std::raise(SIGKILL); };
+  EXPECT_EXIT(std::exit(Supervise(killed)), testing::ExitedWithCode(75), "killed from outside");
+}
+
+// Some launchers have the end of children ignored.
+TEST_F(TaskManifestTest, TheEndIsSeenWhereChildrenAreIgnored) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        std::signal(SIGCHLD, SIG_IGN);
+        std::exit(Supervise([] { return 3; }));
+      },
+      testing::ExitedWithCode(3), "");
 }
 
 TEST_F(TaskManifestTest, AFolderThatCannotBeIsRefused) {

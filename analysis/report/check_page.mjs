@@ -11,7 +11,8 @@ const [executablePath, report, pictures] = process.argv.slice(2);
 const SIZES = { desktop: { width: 1440, height: 900 }, phone: { width: 390, height: 844 } };
 const ARGS = [
   '--no-sandbox',
-  '--disable-gpu',
+  '--use-angle=swiftshader', // three dimensions without a graphics card
+  '--enable-unsafe-swiftshader',
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
@@ -28,7 +29,7 @@ function faultsOfPage() {
   };
   const all = (selector) => [...document.querySelectorAll(selector)];
 
-  const plots = all('.plot');
+  const plots = all('.plot:not(.room)');
   expect('plots', plots.length, of('plot').length);
   of('plot').forEach((block, i) => {
     // An unknown type of trace silently becomes a scatter plot: compare the types.
@@ -37,6 +38,24 @@ function faultsOfPage() {
     if (plots[i]?.querySelector('[data-title*="hare"]'))
       faults.push(`"${block.caption}" offers to upload its data`);
     if (!plots[i]?.querySelector('.main-svg')) faults.push(`"${block.caption}" is not drawn`);
+  });
+
+  const rooms = all('.room');
+  expect('rooms', rooms.length, of('room').length);
+  of('room').forEach((block, i) => {
+    const types = (traces) => (traces ?? []).map((trace) => trace.type).join(' ');
+    const expected = types([...block.traces, ...block.states[0].traces]);
+    expect(`traces of "${block.caption}"`, types(rooms[i]?._fullData), expected);
+    if (!rooms[i]?.querySelector('canvas')) faults.push(`"${block.caption}" is not drawn`);
+  });
+  expect('comparisons', all('.comparison').length, of('comparison').length);
+
+  const channels = all('.channels');
+  expect('pictures by channel', channels.length, of('channels').length);
+  channels.forEach((node, i) => {
+    const canvas = node.querySelector('.channel-stage canvas');
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    if (new Set(new Uint32Array(data.buffer)).size < 2) faults.push(`channels ${i + 1}: one colour`);
   });
 
   const maps = all('.oval');
@@ -137,6 +156,77 @@ async function faultsOfTip(page) {
   return faults;
 }
 
+/** Pointing at a pixel reads its value, in each channel; the scale of ids is hidden. */
+async function faultsOfChannels(page) {
+  if (!(await page.locator('.channels').count())) return [];
+  const faults = [];
+  const node = page.locator('.channels').first();
+  const { width, height, channels } = await page.evaluate(async () => {
+    const block = JSON.parse(document.getElementById('content').textContent).blocks.find(
+      (b) => b.type === 'channels',
+    );
+    const values = await Promise.all(block.channels.map((c) => unpack(c.data)));
+    const at = Math.floor(block.height / 4) * block.width + Math.floor(block.width / 4);
+    return { ...block, channels: block.channels.map((c, i) => ({ ...c, data: '', value: values[i][at] })) };
+  });
+  for (const [index, channel] of channels.entries()) {
+    await node.locator('select').selectOption({ index });
+    await page.waitForTimeout(100);
+    const canvas = node.locator('.channel-stage canvas');
+    await canvas.scrollIntoViewIfNeeded();
+    const box = await canvas.boundingBox();
+    const u = Math.floor(width / 4);
+    const v = Math.floor(height / 4);
+    await page.mouse.move(box.x + ((u + 0.5) / width) * box.width, box.y + ((v + 0.5) / height) * box.height);
+    const text = await node.locator('output').textContent();
+    if (!text.startsWith(`pixel (${u}, ${v}): ${channel.name} = ${+channel.value.toPrecision(6)}`))
+      faults.push(`channel ${channel.name}: "${text}", expected ${channel.value}`);
+    const scaleHidden = await node.locator('.scale').isHidden();
+    if (scaleHidden !== (channel.kind === 'ids')) faults.push(`channel ${channel.name}: scale`);
+  }
+  await node.screenshot({ path: path.join(pictures, 'channels.png') });
+  return faults;
+}
+
+/** Choosing another state of a room draws its traces. */
+async function faultsOfRooms(page) {
+  const choices = page.locator('.choice select');
+  const faults = [];
+  for (let i = 0; i < (await choices.count()); i += 1) {
+    const choice = choices.nth(i);
+    const last = (await choice.locator('option').count()) - 1;
+    await choice.selectOption({ index: last });
+    await page.waitForTimeout(300);
+    const [found, expected] = await choice.evaluate((node, state) => {
+      const rooms = JSON.parse(document.getElementById('content').textContent).blocks.filter(
+        (b) => b.type === 'room' && b.states.length > 1,
+      );
+      const index = [...document.querySelectorAll('.choice select')].indexOf(node);
+      const host = node.closest('figure').querySelector('.room');
+      const sum = (traces) => traces.flatMap((t) => [...(t.x ?? [])]).reduce((a, b) => a + b, 0);
+      return [sum(host.data), sum([...rooms[index].traces, ...rooms[index].states[state].traces])];
+    }, last);
+    if (found !== expected) faults.push(`room ${i + 1}: state ${last} is not drawn`);
+  }
+  const rooms = page.locator('.room');
+  for (let i = 0; i < (await rooms.count()); i += 1)
+    await rooms.nth(i).screenshot({ path: path.join(pictures, `room-${i + 1}.png`) });
+  return faults;
+}
+
+/** The slider moves the line between two pictures. */
+async function faultsOfComparisons(page) {
+  const sliders = page.locator('.slid input');
+  if (!(await sliders.count())) return [];
+  await sliders.first().fill('20');
+  const line = await page
+    .locator('.comparison')
+    .first()
+    .evaluate((node) => getComputedStyle(node).getPropertyValue('--line'));
+  await page.locator('.slid').first().screenshot({ path: path.join(pictures, 'comparison.png') });
+  return line === '20%' ? [] : [`the slider leaves the line at ${line}`];
+}
+
 async function check(browser, name, viewport) {
   const faults = [];
   const context = await browser.newContext({
@@ -159,7 +249,8 @@ async function check(browser, name, viewport) {
   faults.push(...(await page.evaluate(faultsOfPage)));
   await page.screenshot({ path: path.join(pictures, `${name}.png`), fullPage: true });
   if (name === 'desktop') {
-    faults.push(...(await faultsOfViewer(page)), ...(await faultsOfTip(page)));
+    for (const of of [faultsOfViewer, faultsOfTip, faultsOfComparisons, faultsOfChannels, faultsOfRooms])
+      faults.push(...(await of(page)));
     await page.pdf({
       path: path.join(pictures, 'print.pdf'),
       format: 'A4',
@@ -168,7 +259,7 @@ async function check(browser, name, viewport) {
     });
   }
   const found = await page.evaluate(() =>
-    ['.plot', '.oval', '.picture', 'table', '.attachment']
+    ['.plot', '.oval', '.picture', '.comparison', '.channels', '.room', 'table', '.attachment']
       .map(
         (selector) => `${document.querySelectorAll(selector).length} ${selector.replace('.', '')}`,
       )

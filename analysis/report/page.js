@@ -1,6 +1,6 @@
 /*
- * Draws the report from its content, the JSON in the element #content. Plots are drawn by plot.js,
- * pictures by viewer.js, maps by oval.js; the page carries them in this order, this file last.
+ * Draws the report from its content, the JSON in the element #content. Each kind of block that needs
+ * more than a few lines has a file of its own (report.cpp lists them); the page carries this one last.
  *
  * @typedef {{schema: "retrolux/report-1", title: string, subtitle: string, blocks: Block[]}}
  *   Content
@@ -11,6 +11,11 @@
  *   | {type: "table", caption: string, columns: string[], rows: string[][]}
  *   | {type: "pictures", caption: string, columns: number,
  *      items: {label: string, png: string}[], legend?: Category[]}   base64
+ *   | {type: "comparison", caption: string, items: {label: string, png: string}[]}   left and right
+ *   | {type: "channels", caption: string, width: number, height: number,
+ *      channels: Channel[]}   see channels.js
+ *   | {type: "room", caption: string, height_px: number, up: object, eye: object,
+ *      traces: object[], choice: string, states: {label: string, traces: object[]}[]}   plotly's
  *   | {type: "oval_maps", caption: string, categories: Category[], maps: OvalMap[],
  *      grid: Grid}   see oval.js
  *   | {type: "attachment", file_name: string, text: string}} Block
@@ -87,7 +92,7 @@ function figure(kind, caption, ...children) {
 
 function drawTable(block) {
   const numeric = block.columns.map((_, c) =>
-    block.rows.every((row) => /^([-+\u2212]?[\d., ]*\d\s*%?|[-\u2013]?)$/.test(row[c])),
+    block.rows.every((row) => /^([-+\u2212]?[\d., ]*\d(e[-+]?\d+)?\s*%?|[-\u2013]?)$/.test(row[c])),
   );
   const cells = (tag, row) =>
     row.map((text, c) => el(tag, { className: numeric[c] ? 'number' : '' }, text));
@@ -211,6 +216,9 @@ const DRAW = {
   plot: drawPlot,
   table: drawTable,
   pictures: drawPictures,
+  comparison: drawComparison,
+  channels: drawChannels,
+  room: drawRoom,
   oval_maps: drawOvalMaps,
   attachment: drawAttachment,
 };
