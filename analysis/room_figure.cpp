@@ -73,9 +73,12 @@ bool IsTheRoomItself(const SceneObject& object) {
   return box.diagonal().norm() > kRoom_mm;
 }
 
-// Things around the patient: grey, seen through.
-json BystanderTrace(const SceneObject& object) {
+// Things around the patient: grey, seen through, one entry of the legend to take them all away.
+json BystanderTrace(const SceneObject& object, bool in_legend) {
   json trace = MeshTrace(object);
+  trace["name"] = "things around";
+  trace["legendgroup"] = "things around";
+  trace["showlegend"] = in_legend;
   trace["color"] = plot_colour::kGrey;
   trace["opacity"] = 0.35;
   trace["hovertemplate"] = object.name + "<extra></extra>";
@@ -268,12 +271,12 @@ RoomFigure DrawRoom(const std::string& choice, const std::vector<RoomScene>& sce
   RoomFigure figure;
   figure.choice = choice;
   figure.up = UpOf(first.up_axis);
-  figure.eye = 0.9 * figure.up + 1.3 * figure.up.unitOrthogonal() +
-               0.7 * figure.up.cross(figure.up.unitOrthogonal());
+  figure.eye = 1.0 * figure.up + 1.5 * figure.up.unitOrthogonal() +
+               0.8 * figure.up.cross(figure.up.unitOrthogonal());
   const bool same_cameras = SameCameras(scenes);
   for (const SceneObject& object : first.objects) {
     if (object.name != coloured && !IsTheRoomItself(object) && StandsInAll(object, scenes))
-      figure.traces.push_back(BystanderTrace(object));
+      figure.traces.push_back(BystanderTrace(object, figure.traces.empty()));
   }
   if (same_cameras) AddCameras(first, MiddleOf(first.Object(coloured)), figure.traces);
   for (const RoomScene& state : scenes) {
@@ -282,7 +285,7 @@ RoomFigure DrawRoom(const std::string& choice, const std::vector<RoomScene>& sce
     drawn.traces.push_back(ColouredTrace(centre, state.numbers));
     for (const SceneObject& object : state.scene.objects) {
       if (object.name != coloured && !IsTheRoomItself(object) && !StandsInAll(object, scenes))
-        drawn.traces.push_back(BystanderTrace(object));
+        drawn.traces.push_back(BystanderTrace(object, false));
     }
     if (!state.scene.markers.empty()) drawn.traces.push_back(MarkersTrace(state.scene));
     if (!same_cameras) AddCameras(state.scene, MiddleOf(centre), drawn.traces);

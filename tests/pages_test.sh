@@ -9,7 +9,7 @@ set -- "$1"
 # whole NAME PAGE: the page is whole in a browser.
 whole() {
   local name=$1 page=$2
-  if "$tests/report_page.sh" "$page" "$screenshots/$(basename "$(dirname "$(realpath "$page")")")-$(basename "$page" .html)" >page.txt 2>&1; then good "$name"
+  if "$tests/report_page.sh" "$page" "$screenshots/$(printf %s "${page%.html}" | tr -c "a-z0-9" "-")" >page.txt 2>&1; then good "$name"
   else bad "$name" "$(head -5 page.txt | tr '\n' '|')"; fi
 }
 code_is() {

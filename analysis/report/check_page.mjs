@@ -11,8 +11,8 @@ const [executablePath, report, pictures] = process.argv.slice(2);
 const SIZES = { desktop: { width: 1440, height: 900 }, phone: { width: 390, height: 844 } };
 const ARGS = [
   '--no-sandbox',
-  '--use-angle=swiftshader', // three dimensions without a graphics card
-  '--enable-unsafe-swiftshader',
+  '--disable-gpu',
+  '--enable-unsafe-swiftshader', // three dimensions without a graphics card
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',

@@ -14,7 +14,8 @@ const ROOM_CONFIG = { responsive: true, displaylogo: false, displayModeBar: fals
 
 function drawRoom(block) {
   const axis = (name) => ({ ...ROOM_AXIS, title: { text: `${name} / mm` } });
-  const layout = {
+  // Plotly writes into what it is given: each state gets a layout of its own.
+  const layout = () => ({
     template: PLOT_TEMPLATE,
     height: block.height_px,
     margin: { l: 0, r: 0, t: 0, b: 0 },
@@ -28,12 +29,12 @@ function drawRoom(block) {
       uirevision: 'kept',
     },
     legend: { orientation: 'h', y: 0, yanchor: 'top' },
-  };
+  });
   const host = el('div', { className: 'plot room' });
   host.setAttribute('role', 'img');
   host.setAttribute('aria-label', plainText(block.caption));
   const show = (state) =>
-    Plotly.react(host, [...block.traces, ...block.states[state].traces], layout, ROOM_CONFIG);
+    Plotly.react(host, [...block.traces, ...block.states[state].traces], layout(), ROOM_CONFIG);
   const choice = el(
     'select',
     { onchange: () => show(choice.selectedIndex) },
