@@ -66,6 +66,7 @@ class HotspotReport {
   // Cameras and mask of the first placement at some of the angles.
   void Cameras() {
     std::vector<RoomScene> states;
+    std::string mask;
     for (const double psi_deg : kStrip_deg) {
       const auto row = std::find_if(series_.rows.begin(), series_.rows.end(),
                                     [&](const HotspotRow& r) { return r.psi_deg == psi_deg; });
@@ -73,14 +74,15 @@ class HotspotReport {
       RoomScene& state = states.emplace_back();
       state.label = fmt::format("{:g}°", psi_deg);
       state.scene = HotspotScene(series_.setup, psi_deg, 0, study_.options.shot.seed);
-      state.numbers = CamerasThatSee(state.scene, "mask");
+      mask = state.scene.objects.front().name;
+      state.numbers = CamerasThatSee(state.scene, mask);
     }
     if (states.empty()) return;
     report_.Room(
         "The cameras with their rings and fields of view, the markers, and the mask coloured by "
         "how "
         "many cameras see it. Drag to turn, pinch or scroll to zoom.",
-        DrawRoom("Angle between cameras", states));
+        DrawRoom("Angle between cameras", states, mask));
   }
 
   void Angles() {
