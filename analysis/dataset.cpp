@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file_below.h"
 #include "core/json_reader.h"
 
 namespace retrolux {
@@ -23,10 +24,12 @@ constexpr const char* kIndexSchema = "retrolux/dataset-index-1";
 // Files that the config names, below its folder, go along.
 void CopyMasks(const DatasetConfig& config, const fs::path& folder) {
   for (const MaskChoice& mask : config.masks) {
-    const fs::path from = config.file.parent_path() / mask.mesh;
+    const fs::path from = config.file.parent_path();
     if (!fs::path(mask.mesh).has_extension()) continue;
+    if (const auto found = ObjectionToFile(from, mask.mesh))
+      throw InputError::At(config.file, "/masks", *found, "a file below the folder of the config");
     fs::create_directories((folder / mask.mesh).parent_path());
-    WriteTextFile(folder / mask.mesh, ReadTextFile(from));
+    WriteTextFile(folder / mask.mesh, ReadTextFile(from / mask.mesh));
   }
 }
 

@@ -224,9 +224,11 @@ void WriteTextFile(const fs::path& path, std::string_view text) {
 
 std::string ReadTextFile(const fs::path& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) {
-    throw InputError::At(path, "", "is a folder", "a file");
-  }
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) throw InputError::At(path, "", "is a folder", "a file");
+  // A device or a pipe could keep us reading for ever.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError::At(path, "", "is no ordinary file", "a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     throw InputError::At(path, "", fmt::format("cannot be read ({})", std::strerror(errno)),

@@ -54,7 +54,7 @@ class FileWriter {
 
 void WriteTextFile(const std::filesystem::path& path, std::string_view text);
 
-// The whole file. InputError if it can't be read.
+// The whole file. InputError if it can't be read or is no ordinary file.
 std::string ReadTextFile(const std::filesystem::path& path);
 
 // Makes the folder and its parents and tries that files can be made in it. InputError if not:

@@ -1,8 +1,10 @@
 #include "core/json_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/atomic_file.h"
+#include "core/file_below.h"
 
 namespace retrolux {
 
@@ -10,7 +12,6 @@ namespace {
 
 // What a node is, in few words, for "found ...".
 std::string Describe(const nlohmann::json& node) {
-  // Not dumped: a file from elsewhere may nest deeper than the stack allows.
   if (node.is_structured())
     return fmt::format("{} of {} entries", node.is_array() ? "an array" : "an object", node.size());
   std::string text = node.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -20,6 +21,13 @@ std::string Describe(const nlohmann::json& node) {
 
 std::string Range(double min, double max) {
   return fmt::format("a number from {} to {}", min, max);
+}
+
+bool IsDeeperThan(int depth, const nlohmann::json& node) {
+  if (!node.is_structured()) return false;
+  return depth == 0 || std::any_of(node.begin(), node.end(), [&](const nlohmann::json& child) {
+           return IsDeeperThan(depth - 1, child);
+         });
 }
 
 }  // namespace
@@ -42,6 +50,10 @@ JsonReader JsonReader::FromText(const std::string& text, const std::filesystem::
                          "JSON");
   } catch (const nlohmann::json::out_of_range&) {
     throw InputError::At(file, "", "a number too large for a double", "finite numbers");
+  }
+  if (IsDeeperThan(kMaxJsonDepth, document->root)) {
+    throw InputError::At(file, "", fmt::format("JSON nested more than {} deep", kMaxJsonDepth),
+                         "a document that is less deep");
   }
   const nlohmann::json* root = &document->root;
   return JsonReader(std::move(document), root, "");
@@ -136,11 +148,18 @@ std::string JsonReader::String(const std::string& key, const std::string& fallba
 std::string JsonReader::PathBelow(const std::string& key) {
   const JsonReader node = Child(key);
   const std::filesystem::path path = node.AsString();
-  const std::filesystem::path normal = path.lexically_normal();
-  if (path.empty() || path.is_absolute() || *normal.begin() == "..") {
+  if (!StaysBelow(path))
     node.Fail('"' + path.string() + '"', "a relative path that does not leave its folder");
+  return path.lexically_normal().string();
+}
+
+std::filesystem::path JsonReader::FileBelow(const std::string& key) {
+  const std::filesystem::path name = PathBelow(key), folder = File().parent_path();
+  if (const auto found = ObjectionToFile(folder, name)) {
+    Child(key).Fail(*found,
+                    fmt::format("a file below the folder of {}", File().filename().string()));
   }
-  return normal.string();
+  return folder / name;
 }
 
 std::string JsonReader::Choice(const std::string& key, const std::vector<std::string>& names) {

@@ -1,5 +1,6 @@
 // Reads JSON (comments allowed) with errors that name file, place, what was found and what was
-// expected. A key that nobody asked for is an error, with the nearest known name.
+// expected. A key that nobody asked for is an error, with the nearest known name. So is nesting
+// deeper than kMaxJsonDepth: whoever walks through a document may do so recursively.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include "core/error.h"
 
 namespace retrolux {
+
+inline constexpr int kMaxJsonDepth = 64;
 
 // One node of a document. Cheap to copy; copies share the record of which keys were read.
 class JsonReader {
@@ -39,6 +42,8 @@ class JsonReader {
   std::string Choice(const std::string& key, const std::vector<std::string>& names);
   // A path to something below a folder: not absolute, no way out by "..". Normalised.
   std::string PathBelow(const std::string& key);
+  // The file of that name beside this one or below its folder (core/file_below.h).
+  std::filesystem::path FileBelow(const std::string& key);
   Vec3d Vector3(const std::string& key);
   Vec3d Vector3(const std::string& key, const Vec3d& fallback);
   // The document must say "schema": name. A "$schema" key for editors may stand beside it.

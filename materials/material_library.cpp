@@ -34,7 +34,7 @@ nlohmann::json ExportedSpec(const Material& material) {
 Material ReadMaterial(const std::string& name, const JsonReader& json) {
   JsonReader keys = json;
   if (!keys.Has(kTextureKey)) return {name, json.Raw(), MakeBsdf(json), nullptr, nullptr};
-  const std::filesystem::path file = json.File().parent_path() / keys.PathBelow(kTextureKey);
+  const std::filesystem::path file = keys.FileBelow(kTextureKey);
   return TexturedMaterial(name, json, std::make_shared<Texture>(file, ReadTextFile(file)));
 }
 

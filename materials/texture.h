@@ -21,6 +21,7 @@ class Texture {
   Texture(std::filesystem::path file, std::string bytes);
 
   float At(const Vec2f& uv) const;
+  size_t Pixels() const { return share_.data.size(); }
 
   // As it was read, so that a scene can be written out again, and the name of a file for it that no
   // other picture has.

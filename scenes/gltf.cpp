@@ -20,7 +20,6 @@ Mat3d GltfFromWorld(UpAxis up) {
 namespace {
 
 constexpr double kMmPerM = 1000.0;
-constexpr size_t kMaxTriangles = 50'000'000;
 constexpr double kMaxCoordinate_mm = 1e9;
 
 std::string PlaceOf(const GltfNode& node) {
@@ -59,7 +58,7 @@ Vec3f TransformedNormal(const Mat3d& cofactor, const Vec3f& normal) {
 class MeshGatherer {
  public:
   MeshGatherer(const GltfModel& model, UpAxis up)
-      : model_(model), world_from_gltf_(GltfFromWorld(up).transpose()) {}
+      : model_(model), world_from_gltf_(GltfFromWorld(up).transpose()), memory_(model.memory) {}
 
   void Visit(size_t index, const Eigen::Affine3d& file_from_node) {
     const GltfNode& node = model_.nodes[index];
@@ -100,6 +99,7 @@ class MeshGatherer {
       throw InputError::At(model_.file, PlaceOf(node), "a singular transform",
                            "one that keeps a volume");
     }
+    memory_.Take(model_.file, PlaceOf(node), part.Bytes());
     triangles_ += part.triangles.size();
     if (triangles_ > kMaxTriangles) {
       throw InputError::At(model_.file, PlaceOf(node),
@@ -126,6 +126,7 @@ class MeshGatherer {
 
   const GltfModel& model_;
   const Mat3d world_from_gltf_;
+  GltfMemory memory_;
   std::vector<TriangleMesh> parts_;
   size_t triangles_ = 0;
 };

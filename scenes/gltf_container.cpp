@@ -10,8 +10,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMaxJsonDepth = 64;
-
 uint32_t LittleEndian32(const std::string& bytes, size_t offset) {
   uint32_t value = 0;
   for (size_t i = 0; i < 4; ++i) {
@@ -55,27 +53,6 @@ std::string CheckedGlbJson(const fs::path& file, const std::string& bytes) {
   return json;
 }
 
-// The loader walks the JSON recursively; deep nesting would overflow its stack.
-void CheckJsonDepth(const fs::path& file, const std::string& json) {
-  int depth = 0;
-  bool quoted = false;
-  for (size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-      continue;
-    }
-    if (c == '"') quoted = true;
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (depth > kMaxJsonDepth) {
-      throw InputError::At(file, "", fmt::format("JSON nested more than {} deep", kMaxJsonDepth),
-                           "glTF 2.0");
-    }
-  }
-}
-
 }  // namespace
 
 GltfContainer OpenGltfContainer(const fs::path& file, const std::string& bytes) {
@@ -88,9 +65,7 @@ GltfContainer OpenGltfContainer(const fs::path& file, const std::string& bytes) 
     throw InputError::At(file, "", fmt::format("a file of {} bytes", bytes.size()),
                          "less than 4 GiB");
   }
-  GltfContainer container = {glb, glb ? CheckedGlbJson(file, bytes) : bytes};
-  CheckJsonDepth(file, container.json);
-  return container;
+  return {glb, JsonReader::FromText(glb ? CheckedGlbJson(file, bytes) : bytes, file)};
 }
 
 }  // namespace retrolux

@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file_below.h"
 
 namespace retrolux {
 
@@ -11,21 +12,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What the loader may read beside the file: only what lies in its folder or below.
+// What the loader may read beside the file (core/file_below.h), and how much of it: the same file
+// may be named any number of times.
 struct FileAccess {
   fs::path folder;
-  std::string refused;
+  std::string objection;
+  size_t bytes_left = size_t{1} << 30;
 
   bool Allows(const fs::path& path) {
-    const fs::path relative = path.lexically_normal().lexically_relative(folder);
-    const bool inside = !relative.empty() && *relative.begin() != "..";
-    if (!inside && path.is_absolute()) refused = path.filename().string();
-    return inside;
+    if (!path.is_absolute()) return false;  // the loader tries the working folder, too
+    std::error_code error;
+    const auto found = ObjectionToFile(folder, path.lexically_relative(folder));
+    if (found && fs::exists(path, error)) objection = *found;
+    return !found;
+  }
+  bool Takes(size_t bytes) {
+    const bool fits = bytes <= bytes_left;
+    if (fits) bytes_left -= bytes;
+    return fits;
   }
 };
 
 bool AllowedFileExists(const std::string& path, void* user) {
-  return static_cast<FileAccess*>(user)->Allows(path) && fs::is_regular_file(path);
+  return static_cast<FileAccess*>(user)->Allows(path);
 }
 
 std::string SamePath(const std::string& path, void*) {
@@ -34,7 +43,13 @@ std::string SamePath(const std::string& path, void*) {
 
 bool ReadAllowedFile(std::vector<unsigned char>* out, std::string* error, const std::string& path,
                      void* user) {
-  if (!static_cast<FileAccess*>(user)->Allows(path)) return false;
+  auto& access = *static_cast<FileAccess*>(user);
+  if (!access.Allows(path)) return false;
+  std::error_code ignored;
+  if (!access.Takes(fs::file_size(path, ignored))) {
+    *error = "more than 1 GiB in files beside it";
+    return false;
+  }
   try {
     const std::string bytes = ReadTextFile(path);
     out->assign(bytes.begin(), bytes.end());
@@ -45,10 +60,11 @@ bool ReadAllowedFile(std::vector<unsigned char>* out, std::string* error, const 
   }
 }
 
-// As they are: decoding them is work that a hostile file could multiply, and few are used.
+// As they are: decoding them is work that a hostile file could multiply, and few are used. Those in
+// a buffer stay there: the loader has not checked that their bytes are.
 bool KeepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                const unsigned char* bytes, int size, void*) {
-  image->image.assign(bytes, bytes + size);
+  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
@@ -78,11 +94,8 @@ tinygltf::Model LoadGltf(const fs::path& file, const std::string& bytes, bool bi
     error = thrown.what();
   }
   if (good) return model;
-  if (!access.refused.empty()) {
-    throw InputError::At(
-        file, "", fmt::format("a path to '{}' that leaves the folder of the file", access.refused),
-        "files in that folder");
-  }
+  if (!access.objection.empty())
+    throw InputError::At(file, "", access.objection, "files in its folder or below");
   throw InputError::At(file, "", fmt::format("cannot be read: {}", FirstLine(error)), "glTF 2.0");
 }
 

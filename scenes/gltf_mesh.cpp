@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
@@ -14,7 +15,8 @@ namespace {
 
 class MeshConverter {
  public:
-  MeshConverter(const fs::path& file, const tinygltf::Model& model) : file_(file), model_(model) {}
+  MeshConverter(const fs::path& file, const tinygltf::Model& model, GltfMemory& memory)
+      : file_(file), model_(model), memory_(memory) {}
 
   std::vector<GltfPrimitive> Convert(size_t index) const {
     const tinygltf::Mesh& mesh = model_.meshes[index];
@@ -68,32 +70,25 @@ class MeshConverter {
     const size_t element =
         static_cast<size_t>(component_size) *
         static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
-    const tinygltf::BufferView& view = model_.bufferViews[Index(
-        place + " bufferView", accessor.bufferView, model_.bufferViews.size())];
-    const tinygltf::Buffer& buffer =
-        model_.buffers[Index(place + " buffer", view.buffer, model_.buffers.size())];
-    if (view.byteOffset > buffer.data.size() ||
-        view.byteLength > buffer.data.size() - view.byteOffset) {
-      Fail(place,
-           fmt::format("a buffer view of {} bytes from byte {} in a buffer of {} bytes",
-                       view.byteLength, view.byteOffset, buffer.data.size()),
-           "bytes that are there");
-    }
-    const size_t stride = view.byteStride == 0 ? element : view.byteStride;
+    const std::span<const unsigned char> view =
+        GltfViewBytes(file_, model_, place, accessor.bufferView);
+    const size_t given = model_.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;
+    const size_t stride = given == 0 ? element : given;
     if (stride < element)
       Fail(place, fmt::format("a stride of {} bytes", stride), fmt::format("at least {}", element));
     if (accessor.count == 0) Fail(place, "an empty accessor", "at least one element");
     const bool first_fits =
-        accessor.byteOffset <= view.byteLength && element <= view.byteLength - accessor.byteOffset;
+        accessor.byteOffset <= view.size() && element <= view.size() - accessor.byteOffset;
     if (!first_fits ||
-        accessor.count - 1 > (view.byteLength - accessor.byteOffset - element) / stride) {
+        accessor.count - 1 > (view.size() - accessor.byteOffset - element) / stride) {
       Fail(place,
            fmt::format("{} elements from byte {} in a buffer view of {} bytes", accessor.count,
-                       accessor.byteOffset, view.byteLength),
+                       accessor.byteOffset, view.size()),
            "bytes that are there");
     }
-    return {buffer.data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride,
-            accessor.componentType};
+    // Indices of any size take four bytes, and four more in their triangle.
+    memory_.Take(file_, place, accessor.count * std::max<size_t>(element, 8));
+    return {view.data() + accessor.byteOffset, accessor.count, stride, accessor.componentType};
   }
 
   std::vector<Vec3f> Vectors(int index, const std::string& place) const {
@@ -202,6 +197,7 @@ class MeshConverter {
 
   const fs::path& file_;
   const tinygltf::Model& model_;
+  GltfMemory& memory_;
 };
 
 }  // namespace
@@ -214,9 +210,37 @@ size_t CheckedGltfIndex(const fs::path& file, std::string_view place, int index,
   return static_cast<size_t>(index);
 }
 
+std::span<const unsigned char> GltfViewBytes(const fs::path& file, const tinygltf::Model& model,
+                                             const std::string& place, int index) {
+  const tinygltf::BufferView& view = model.bufferViews[CheckedGltfIndex(
+      file, place + " bufferView", index, model.bufferViews.size())];
+  const tinygltf::Buffer& buffer =
+      model.buffers[CheckedGltfIndex(file, place + " buffer", view.buffer, model.buffers.size())];
+  if (view.byteOffset > buffer.data.size() ||
+      view.byteLength > buffer.data.size() - view.byteOffset) {
+    throw InputError::At(
+        file, place,
+        fmt::format("a buffer view of {} bytes from byte {} in a buffer of {} bytes",
+                    view.byteLength, view.byteOffset, buffer.data.size()),
+        "bytes that are there");
+  }
+  return std::span(buffer.data).subspan(view.byteOffset, view.byteLength);
+}
+
+void GltfMemory::Take(const fs::path& file, std::string_view place, size_t bytes) {
+  if (bytes > left_) {
+    throw InputError::At(file, place,
+                         fmt::format("data that are shared so often that they would take more than "
+                                     "{} MiB",
+                                     size_ >> 20),
+                         "at most 256 MiB and eight times what the file holds");
+  }
+  left_ -= bytes;
+}
+
 std::vector<GltfPrimitive> ReadGltfMesh(const fs::path& file, const tinygltf::Model& model,
-                                        size_t index) {
-  return MeshConverter(file, model).Convert(index);
+                                        size_t index, GltfMemory& memory) {
+  return MeshConverter(file, model, memory).Convert(index);
 }
 
 }  // namespace retrolux

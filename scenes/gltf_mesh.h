@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +19,14 @@ namespace retrolux {
 size_t CheckedGltfIndex(const std::filesystem::path& file, std::string_view place, int index,
                         size_t size);
 
+// The bytes of a buffer view, which live as long as the model. InputError if they are not there.
+std::span<const unsigned char> GltfViewBytes(const std::filesystem::path& file,
+                                             const tinygltf::Model& model, const std::string& place,
+                                             int index);
+
 // The primitives of one of the model's meshes. InputError as ReadGltfModel.
 std::vector<GltfPrimitive> ReadGltfMesh(const std::filesystem::path& file,
-                                        const tinygltf::Model& model, size_t index);
+                                        const tinygltf::Model& model, size_t index,
+                                        GltfMemory& memory);
 
 }  // namespace retrolux

@@ -21,14 +21,16 @@ constexpr size_t kMaxTreeDepth = 64;
 // Makes a GltfModel of the loader's, and believes nothing.
 class Converter {
  public:
-  Converter(const fs::path& file, const tinygltf::Model& model) : file_(file), model_(model) {}
+  Converter(const fs::path& file, const tinygltf::Model& model)
+      : file_(file), model_(model), memory_(BytesHeld(model)) {}
 
   GltfModel Convert() {
     CheckVersion();
     GltfModel result;
     result.file = file_;
+    result.memory = memory_;
     for (size_t i = 0; i < model_.meshes.size(); ++i)
-      result.meshes.push_back(ReadGltfMesh(file_, model_, i));
+      result.meshes.push_back(ReadGltfMesh(file_, model_, i, memory_));
     for (const tinygltf::Camera& camera : model_.cameras)
       result.cameras.push_back(ConvertCamera(camera));
     for (size_t i = 0; i < model_.images.size(); ++i) result.images.push_back(ConvertImage(i));
@@ -53,13 +55,23 @@ class Converter {
     return CheckedGltfIndex(file_, place, index, size);
   }
 
-  GltfImage ConvertImage(size_t index) const {
+  static size_t BytesHeld(const tinygltf::Model& model) {
+    size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+    return bytes;
+  }
+
+  GltfImage ConvertImage(size_t index) {
     const tinygltf::Image& image = model_.images[index];
+    const std::string place = fmt::format("image {}", index);
+    std::span<const unsigned char> bytes = image.image;
+    if (image.bufferView >= 0) bytes = GltfViewBytes(file_, model_, place, image.bufferView);
+    memory_.Take(file_, place, bytes.size());
     const fs::path from = image.uri.starts_with("data:") ? "" : image.uri;
     const std::string extension = from.has_extension()             ? from.extension().string()
                                   : image.mimeType == "image/jpeg" ? ".jpg"
                                                                    : ".png";
-    return {fmt::format("image {}{}", index, extension), {image.image.begin(), image.image.end()}};
+    return {place + extension, {bytes.begin(), bytes.end()}};
   }
 
   void CheckVersion() const {
@@ -202,6 +214,7 @@ class Converter {
 
   const fs::path& file_;
   const tinygltf::Model& model_;
+  GltfMemory memory_;
 };
 
 std::vector<JsonReader> MaterialsOf(JsonReader json) {
@@ -219,7 +232,7 @@ GltfModel ReadGltfModel(const fs::path& file) {
   const GltfContainer container = OpenGltfContainer(file, bytes);
   const tinygltf::Model model = LoadGltf(file, bytes, container.binary);
   GltfModel result = Converter(file, model).Convert();
-  result.materials = MaterialsOf(JsonReader::FromText(container.json, file));
+  result.materials = MaterialsOf(container.json);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/camera_model.h"
@@ -13,6 +14,20 @@
 #include "scenes/mesh.h"
 
 namespace retrolux {
+
+// How much may be made of a file. Its parts may share their data, of which each gets a copy: a
+// small file could ask for any amount.
+class GltfMemory {
+ public:
+  // `held`: the bytes that the file and those beside it hold.
+  explicit GltfMemory(size_t held = 0) : size_((size_t{256} << 20) + 8 * held), left_(size_) {}
+  // InputError if so much is not left.
+  void Take(const std::filesystem::path& file, std::string_view place, size_t bytes);
+
+ private:
+  size_t size_;
+  size_t left_;
+};
 
 struct GltfNode {
   std::string name;
@@ -48,6 +63,7 @@ struct GltfModel {
   std::vector<GltfImage> images;
   std::vector<std::optional<size_t>> textures;     // the image of each; none: in another format
   std::vector<std::optional<GltfCamera>> cameras;  // nothing for an orthographic one
+  GltfMemory memory;                               // for each mesh that is made of the model
 };
 
 // Refused with an InputError that names file and place: truncated or damaged files, paths out of

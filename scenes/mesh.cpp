@@ -16,6 +16,11 @@ double TriangleMesh::Area() const {
   return 0.5 * twice;
 }
 
+size_t TriangleMesh::Bytes() const {
+  return positions.size() * sizeof(Vec3f) + normals.size() * sizeof(Vec3f) +
+         triangles.size() * sizeof(triangles[0]) + uvs.size() * sizeof(Vec2f);
+}
+
 void TriangleMesh::Append(const TriangleMesh& other) {
   RETROLUX_CHECK(positions.empty() ||
                      (normals.empty() == other.normals.empty() && uvs.empty() == other.uvs.empty()),

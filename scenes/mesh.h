@@ -19,9 +19,13 @@ struct TriangleMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<Vec2f> uvs = {};
 
-  double Area() const;  // mm2
+  double Area() const;   // mm2
+  size_t Bytes() const;  // of memory
   void Append(const TriangleMesh& other);
 };
+
+// Of a file or of a scene: more are of no use to anyone, and would be a way to take all memory.
+inline constexpr size_t kMaxTriangles = 20'000'000;
 
 // Unit normals at the corners of each triangle. Those of the vertices where the mesh has them, else
 // the mean of the triangles around the corner, weighted by their angles there; in both cases only

@@ -37,14 +37,6 @@ bool IsAssimpFormat(const fs::path& file) {
   return extension == "obj" || extension == "stl";
 }
 
-// Like ReadTextFile; a pipe could keep us waiting for ever.
-std::string BytesOf(const fs::path& file) {
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
-    throw InputError::At(file, "", "no ordinary file", "a file");
-  return ReadTextFile(file);
-}
-
 double MillimetresPer(LengthUnit unit) {
   switch (unit) {
     case LengthUnit::kMillimetre:
@@ -76,7 +68,7 @@ std::string ReasonOf(const std::string& message) {
 class AssimpFile {
  public:
   AssimpFile(const fs::path& file, unsigned int steps) {
-    const std::string bytes = BytesOf(file);
+    const std::string bytes = ReadTextFile(file);
     importer_.SetIOHandler(new NoOtherFiles);  // the importer owns it
     scene_ =
         importer_.ReadFileFromMemory(bytes.data(), bytes.size(), steps, ExtensionOf(file).c_str());
@@ -165,7 +157,7 @@ std::vector<Vec3f> VerticesByAssimp(const fs::path& file, double scale) {
 }
 
 TriangleMesh ImportPly(const fs::path& file, double scale) {
-  TriangleMesh mesh = ReadPly(file, BytesOf(file));
+  TriangleMesh mesh = ReadPly(file, ReadTextFile(file));
   for (size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.positions[i] = ScaledPosition(file, i, mesh.positions[i], scale);
   if (!std::all_of(mesh.normals.begin(), mesh.normals.end(), IsUsableNormal)) mesh.normals.clear();
@@ -193,7 +185,7 @@ std::optional<std::vector<double>> NumbersOf(std::string_view line) {
 }
 
 std::vector<Vec3f> ReadTextPoints(const fs::path& file, double scale) {
-  const std::string text = BytesOf(file);
+  const std::string text = ReadTextFile(file);
   std::vector<Vec3f> points;
   size_t number = 0;
   for (size_t begin = 0; begin < text.size();) {

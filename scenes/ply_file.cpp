@@ -120,6 +120,9 @@ class HeaderReader {
     const auto [end, error] =
         std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc{} || end != count.data() + count.size()) Fail("element NAME COUNT");
+    for (const Element& other : header_.elements) {
+      if (other.name == element.name) Fail("each element once");
+    }
     header_.elements.push_back(std::move(element));
   }
 

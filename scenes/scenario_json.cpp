@@ -4,6 +4,7 @@
 #include "core/atomic_file.h"
 #include "core/data_path.h"
 #include "core/error.h"
+#include "core/file_below.h"
 #include "core/json_reader.h"
 #include "scenes/scenario.h"
 #include "scenes/scene_json_values.h"
@@ -242,8 +243,7 @@ std::vector<Beam> ReadBeams(JsonReader& json) {
 fs::path BaseFile(const fs::path& file, const nlohmann::json& base) {
   if (base.is_string()) {
     const fs::path name = base.get<std::string>();
-    const fs::path beside = file.parent_path() / name;
-    if (fs::is_regular_file(beside)) return beside;
+    if (!ObjectionToFile(file.parent_path(), name)) return file.parent_path() / name;
     const std::vector<std::string> names = BuiltInScenarioNames();
     if (std::find(names.begin(), names.end(), name) != names.end())
       return DataPath(kScenarioFolder / (name.string() + ".json"));
@@ -300,6 +300,17 @@ Scenario FromDocument(const nlohmann::json& document, const fs::path& file) {
   return scenario;
 }
 
+// Not those that a command gives in the place of the file's: they may lie anywhere.
+void CheckMeshFiles(const Scenario& scenario) {
+  for (const auto& [name, mask] : scenario.masks) {
+    if (!fs::path(mask.mesh).has_extension()) continue;
+    if (const auto found = ObjectionToFile(scenario.file.parent_path(), mask.mesh)) {
+      throw InputError::At(scenario.file, fmt::format("/masks/{}/mesh", name), *found,
+                           "a built-in mask, or a file below the folder of the scenario");
+    }
+  }
+}
+
 }  // namespace
 
 Scenario Scenario::With(const Variation& variation) const {
@@ -328,6 +339,7 @@ Scenario LoadScenario(const std::string& name_or_path) {
                          fmt::format("a file, or one of the built-in {}", JoinNames(names)));
   }
   const Scenario scenario = FromDocument(Merged(file), file);
+  CheckMeshFiles(scenario);
   for (const Variation& variation : scenario.variations) scenario.With(variation);
   return scenario;
 }

@@ -140,11 +140,27 @@ Perforation ReadPerforation(JsonReader json) {
   return holes;
 }
 
+// Of all textures of a scene. Materials may share a picture, and each has a copy.
+class TexturePixels {
+ public:
+  void Add(const JsonReader& place, const Material& material) {
+    if (material.texture) pixels_ += material.texture->Pixels();
+    if (pixels_ > kMost) {
+      place.Fail(fmt::format("textures of {} pixels up to here", pixels_),
+                 fmt::format("a scene with at most {}", kMost));
+    }
+  }
+
+ private:
+  static constexpr size_t kMost = size_t{1} << 27;
+  size_t pixels_ = 0;
+};
+
 // Reads the objects of one scene file; each glTF file is read once.
 class ObjectReader {
  public:
-  ObjectReader(Scene& scene, fs::path folder, UpAxis up)
-      : scene_(scene), folder_(std::move(folder)), up_(up) {}
+  ObjectReader(Scene& scene, UpAxis up, TexturePixels& textures)
+      : scene_(scene), up_(up), textures_(textures) {}
 
   SceneObject Read(JsonReader json) {
     SceneObject object;
@@ -154,25 +170,28 @@ class ObjectReader {
     if (HasSome(json, "perforation"))
       object.perforation = ReadPerforation(json.Child("perforation"));
     const std::string file = json.PathBelow("file");
-    const fs::path path = folder_ / file;
     // A glTF file may bring its own.
     if (json.Has("material") || !IsGltf(file))
       object.material = UsedMaterial(scene_, json, "material");
-    if (!fs::is_regular_file(path)) {
-      json.Child("file").Fail(fmt::format("no file {}", Quoted(file)),
-                              "a mesh file below the folder of the scene");
-    }
+    const fs::path path = json.FileBelow("file");
     if (IsGltf(file)) {
-      ReadGltf(json, file, object);
+      ReadGltf(json, file, path, object);
     } else {
       object.mesh = ReadOther(json, path);
+    }
+    // Objects may share a file, and each has a copy.
+    triangles_ += object.mesh.triangles.size();
+    if (triangles_ > kMaxTriangles) {
+      json.Fail(fmt::format("{} triangles up to here", triangles_),
+                fmt::format("a scene of at most {}", kMaxTriangles));
     }
     return object;
   }
 
  private:
   // Which mesh of the file, and in which frame; its material, if the object has none yet.
-  void ReadGltf(JsonReader& json, const std::string& file, SceneObject& object) {
+  void ReadGltf(JsonReader& json, const std::string& file, const fs::path& path,
+                SceneObject& object) {
     const bool has_node = json.Has("node");
     const std::string node = has_node ? json.String("node") : "";
     const bool in_node = json.Has("frame") && json.Choice("frame", {"file", "node"}) == "node";
@@ -180,15 +199,15 @@ class ObjectReader {
       json.Fail("\"frame\": \"node\" without a node", "the key 'node' with its name");
     json.Finish();
     const auto open = files_.find(file);
-    const GltfFile& gltf = open != files_.end()
-                               ? open->second
-                               : files_.emplace(file, GltfFile(folder_ / file)).first->second;
+    const GltfFile& gltf =
+        open != files_.end() ? open->second : files_.emplace(file, GltfFile(path)).first->second;
     object.mesh = has_node ? gltf.NodeMesh(node, in_node ? MeshFrame::kNode : MeshFrame::kFile, up_)
                            : gltf.Mesh(up_);
     if (!object.material.empty()) return;
     Material material = has_node ? gltf.NodeMaterial(node) : gltf.MeshMaterial();
     object.material = material.name = fmt::format("{}:{}", file, material.name);
-    scene_.materials.emplace(object.material, std::move(material));
+    const auto [entry, is_new] = scene_.materials.emplace(object.material, std::move(material));
+    if (is_new) textures_.Add(json, entry->second);
   }
 
   // PLY, OBJ, STL: their axes are the object's, their unit must be said.
@@ -199,9 +218,10 @@ class ObjectReader {
   }
 
   Scene& scene_;
-  const fs::path folder_;
   const UpAxis up_;
+  TexturePixels& textures_;
   std::map<std::string, GltfFile> files_;  // by their names in the scene file
+  size_t triangles_ = 0;
 };
 
 // What a file says of itself: checked where wrong values would be misread.
@@ -220,20 +240,23 @@ Scene ReadSceneFile(const fs::path& file) {
   Scene scene;
   scene.name = json.String("name");
   if (json.Has("up_axis") && json.Choice("up_axis", {"x", "z"}) == "z") scene.up_axis = UpAxis::kZ;
+  TexturePixels textures;
   if (json.Has("materials")) {
     JsonReader materials = json.Child("materials");
     for (const std::string& name : materials.Keys()) {
-      scene.materials[name] = ReadDeclaredMaterial(name, materials.Child(name));
+      const Material material = ReadDeclaredMaterial(name, materials.Child(name));
+      textures.Add(materials.Child(name), material);
+      scene.materials[name] = material;
     }
   }
-  ObjectReader objects(scene, file.parent_path(), scene.up_axis);
+  ObjectReader objects(scene, scene.up_axis, textures);
   ForEach(json, "objects",
           [&](const JsonReader& object) { scene.objects.push_back(objects.Read(object)); });
   ForEach(json, "cameras",
           [&](const JsonReader& camera) { scene.cameras.push_back(ReadCamera(camera)); });
   if (json.Has("marker_set")) {
-    scene.marker_set = std::make_shared<const MarkerSet>(
-        ReadMarkerSet(file.parent_path() / json.PathBelow("marker_set")));
+    scene.marker_set =
+        std::make_shared<const MarkerSet>(ReadMarkerSet(json.FileBelow("marker_set")));
   }
   ForEach(json, "markers",
           [&](const JsonReader& marker) { scene.markers.push_back(ReadMarker(scene, marker)); });
