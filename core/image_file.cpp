@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/picture_header.h"
 
 namespace retrolux {
 
@@ -49,16 +50,33 @@ std::string FirstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+// By the reader of the format that the bytes are in, and no other; `memory`: null to read the file.
+std::unique_ptr<OIIO::ImageInput> OpenBytes(const fs::path& file, const std::string& bytes,
+                                            OIIO::Filesystem::IOProxy* memory) {
+  const char* const format = PictureFormat(file, bytes);
+  CheckPngIsWhole(file, bytes);
+  auto input = OIIO::ImageInput::create(format);
+  if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
+  OIIO::ImageSpec spec;
+  if (memory != nullptr && !input->set_ioproxy(memory)) {
+    throw InputError::At(file, "", fmt::format("{} inside another file", format),
+                         "a PNG or JPEG picture");
+  }
+  if (!input->open(file.string(), spec))
+    throw InputError::At(file, "", FirstLine(input->geterror()), "a picture");
+  if (spec.deep || spec.depth != 1 || spec.width < 1 || spec.height < 1)
+    throw InputError::At(file, "header", "deep or without a size", "a flat picture");
+  CheckPictureSize(file, spec.image_bytes(true), bytes.size());
+  return input;
+}
+
 std::unique_ptr<OIIO::ImageInput> Open(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     throw InputError::At(file, "", fs::is_directory(file, error) ? "is a folder" : "no such file",
                          "a picture");
   }
-  CheckPngIsWhole(file, ReadTextFile(file));
-  auto input = OIIO::ImageInput::open(file.string());
-  if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
-  return input;
+  return OpenBytes(file, ReadTextFile(file), nullptr);
 }
 
 }  // namespace
@@ -222,10 +240,8 @@ float LinearFromSrgb(float v) {
 }  // namespace
 
 FloatPlane DecodeLinearGrey(const std::string& bytes, const fs::path& file) {
-  CheckPngIsWhole(file, bytes);
   OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-  auto input = OIIO::ImageInput::open(file.filename().string(), nullptr, &memory);
-  if (!input) throw InputError::At(file, "", FirstLine(OIIO::geterror()), "a picture");
+  const auto input = OpenBytes(file, bytes, &memory);
   const OIIO::ImageSpec& spec = input->spec();
   const auto channels = static_cast<size_t>(spec.nchannels);
   const bool linear = spec.format.is_floating_point();
