@@ -1,91 +1,56 @@
 #include "classifier/camera_file.h"
 
-#include <cmath>
-#include <opencv2/core.hpp>
 #include <set>
 
-#include "core/error.h"
+#include "core/atomic_file.h"
+#include "core/json_reader.h"
+#include "core/yaml_text.h"
 
 namespace retrolux {
 
 namespace {
 
-// One camera of the file, with the place for messages.
-class CameraNode {
- public:
-  CameraNode(const std::filesystem::path& file, const cv::FileNode& node, size_t index)
-      : file_(file), node_(node), place_(fmt::format("cameras[{}]", index)) {}
+// Numbers row by row of an opencv-matrix with so many of them.
+std::vector<double> ReadMatrix(JsonReader& camera, const std::string& key, size_t least,
+                               size_t most) {
+  JsonReader matrix = camera.Child(key);
+  const JsonReader data = matrix.Child("data");
+  const size_t count = data.Size();
+  const int rows = matrix.Integer("rows", 1, 9), cols = matrix.Integer("cols", 1, 9);
+  if (count < least || count > most || static_cast<size_t>(rows * cols) != count)
+    matrix.Fail(fmt::format("{} numbers", count), fmt::format("an opencv-matrix of {}", most));
+  return data.Numbers(count);
+}
 
-  [[noreturn]] void Fail(const std::string& key, std::string_view found,
-                         std::string_view expected) const {
-    throw InputError::At(file_, place_ + "." + key, found, expected);
-  }
-
-  std::string Name() const {
-    if (!node_["name"].isString()) Fail("name", "no text", "the camera's name");
-    return node_["name"].string();
-  }
-
-  int Pixels(const std::string& key) const {
-    constexpr int kMost = 1 << 16;
-    const cv::FileNode value = node_[key];
-    if (!value.isInt()) Fail(key, "no whole number", "a number of pixels");
-    const int pixels = static_cast<int>(value);
-    if (pixels < 1 || pixels > kMost)
-      Fail(key, std::to_string(pixels), fmt::format("1 to {} px", kMost));
-    return pixels;
-  }
-
-  // Numbers row by row.
-  std::vector<double> Matrix(const std::string& key, size_t least, size_t most) const {
-    cv::Mat matrix;
-    if (node_[key].isMap()) node_[key] >> matrix;
-    if (matrix.total() < least || matrix.total() > most || matrix.channels() != 1) {
-      Fail(key, fmt::format("{} numbers", matrix.total()),
-           fmt::format("an opencv-matrix of {}", most));
-    }
-    matrix.convertTo(matrix, CV_64F);
-    std::vector<double> numbers(matrix.begin<double>(), matrix.end<double>());
-    for (const double number : numbers) {
-      if (!std::isfinite(number)) Fail(key, fmt::format("{}", number), "finite numbers");
-    }
-    return numbers;
-  }
-
- private:
-  const std::filesystem::path& file_;
-  cv::FileNode node_;
-  std::string place_;
-};
-
-Mat3d ReadRotation(const CameraNode& node) {
+Mat3d ReadRotation(JsonReader& json) {
   constexpr double kRounding = 1e-6;
-  const std::vector<double> r = node.Matrix("R", 9, 9);
+  const std::vector<double> r = ReadMatrix(json, "R", 9, 9);
   Mat3d rotation;
   rotation << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
   const double error = (rotation * rotation.transpose() - Mat3d::Identity()).cwiseAbs().maxCoeff();
-  if (error > kRounding || rotation.determinant() < 0.0)
-    node.Fail("R", "no rotation", "orthogonal rows, determinant 1");
+  if (!(error <= kRounding) || rotation.determinant() < 0.0)
+    json.Child("R").Fail("no rotation", "orthogonal rows, determinant 1");
   return rotation;
 }
 
-CameraModel ReadCamera(const CameraNode& node) {
+CameraModel ReadCamera(JsonReader json) {
+  constexpr int kMostPixels = 1 << 16;
   CameraModel camera;
-  camera.name = node.Name();
-  camera.width = node.Pixels("image_width");
-  camera.height = node.Pixels("image_height");
-  const std::vector<double> k = node.Matrix("camera_matrix", 9, 9);
+  camera.name = json.String("name");
+  camera.width = json.Integer("image_width", 1, kMostPixels);
+  camera.height = json.Integer("image_height", 1, kMostPixels);
+  const std::vector<double> k = ReadMatrix(json, "camera_matrix", 9, 9);
   if (!(k[0] > 0.0) || !(k[4] > 0.0) || k[1] != 0.0 || k[3] != 0.0 || k[8] != 1.0)
-    node.Fail("camera_matrix", "no pinhole's", "fx 0 cx, 0 fy cy, 0 0 1 with fx, fy > 0");
+    json.Child("camera_matrix").Fail("no pinhole's", "fx 0 cx, 0 fy cy, 0 0 1 with fx, fy > 0");
   camera.fx = k[0];
   camera.cx = k[2];
   camera.fy = k[4];
   camera.cy = k[5];
-  std::vector<double> d = node.Matrix("distortion_coefficients", 4, 5);
+  std::vector<double> d = ReadMatrix(json, "distortion_coefficients", 4, 5);
   d.resize(5, 0.0);
   camera.distortion = Distortion(d[0], d[1], d[2], d[3], d[4]);
-  const std::vector<double> t = node.Matrix("t", 3, 3);
-  camera.camera_from_world = {ReadRotation(node), Vec3d(t[0], t[1], t[2])};
+  const std::vector<double> t = ReadMatrix(json, "t", 3, 3);
+  camera.camera_from_world = {ReadRotation(json), Vec3d(t[0], t[1], t[2])};
   return camera;
 }
 
@@ -94,20 +59,17 @@ CameraModel ReadCamera(const CameraNode& node) {
 std::vector<CameraModel> ReadCameras(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
     throw InputError::At(file, "", "no such file", "cameras.yml as `retrolux render` writes it");
+  const nlohmann::json document = JsonOfYaml(ReadTextFile(file), file);
+  JsonReader json = JsonReader::FromText(
+      document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), file);
   std::vector<CameraModel> cameras;
-  try {
-    const cv::FileStorage storage(file.string(), cv::FileStorage::READ);
-    const cv::FileNode list = storage["cameras"];
-    std::set<std::string> names;
-    for (const cv::FileNode& node : list) {
-      const CameraNode camera(file, node, cameras.size());
-      cameras.push_back(ReadCamera(camera));
-      if (!names.insert(cameras.back().name).second)
-        camera.Fail("name", fmt::format("'{}' again", cameras.back().name), "names that differ");
-    }
-  } catch (const cv::Exception& error) {
-    throw InputError::At(file, "", fmt::format("no YAML of OpenCV ({})", error.err),
-                         "cameras.yml as `retrolux render` writes it");
+  std::set<std::string> names;
+  const size_t count = json.Has("cameras") ? json.Child("cameras").Size() : 0;
+  for (size_t i = 0; i < count; ++i) {
+    const JsonReader camera = json.Child("cameras").Child(i);
+    cameras.push_back(ReadCamera(camera));
+    if (!names.insert(cameras.back().name).second)
+      camera.Fail(fmt::format("the name '{}' again", cameras.back().name), "names that differ");
   }
   if (cameras.empty()) throw InputError::At(file, "cameras", "none", "at least one camera");
   return cameras;

@@ -526,10 +526,11 @@ TEST(CameraFile, SaysWhatIsWrong) {
     return MessageOf([&] { ReadCameras(file); });
   };
   EXPECT_THAT(message("image_width: 640", "image_width: 0"),
-              HasSubstr("image_width: 0; expected 1"));
+              HasSubstr("/cameras/0/image_width: found number 0; expected a number from 1"));
   EXPECT_THAT(message("cols: 5", "cols: 2"), HasSubstr("bad.yml"));
   EXPECT_THAT(message("cameras:", "cams:"), HasSubstr("cameras: none"));
-  EXPECT_THAT(message("R: ", "Q: "), HasSubstr("cameras[0].R: 0 numbers; expected"));
+  EXPECT_THAT(message("R: ", "Q: "), HasSubstr("/cameras/0: found no key 'R'; expected 'R'"));
+  EXPECT_THAT(message("%YAML", "{"), HasSubstr("bad.yml: line 1: no %YAML; expected YAML"));
   EXPECT_THAT(MessageOf([] { ReadCameras("nowhere.yml"); }), HasSubstr("no such file"));
 }
 
