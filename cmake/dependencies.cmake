@@ -13,5 +13,6 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs calib3d OPTIONAL_
 find_package(apriltag 3 QUIET)  # optional, as is OpenCV's aruco: detectors of others (classifier/tags.h)
 find_package(CLI11 REQUIRED)
 find_package(NLopt REQUIRED)
+find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)
 

@@ -1,5 +1,5 @@
-// The YAML that OpenCV's FileStorage writes, read by ourselves: the library's own reader (4.6)
-// never ends on some damaged files.
+// YAML text as JSON, for the files of OpenCV's FileStorage. By yaml-cpp: OpenCV's own reader (4.6)
+// never ends on some damaged files, and believes the rows and columns that they claim.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace retrolux {
 
-// Maps and lists by indentation or in brackets, quoted and plain values, comments; tags
-// (!!opencv-matrix) are passed over. No anchors, no text over several lines. Numbers that a double
-// can't hold stay text. InputError with the line for all else.
+// Maps, lists, texts and numbers; tags (!!opencv-matrix) are passed over. Plain words that are
+// numbers of a double become numbers. InputError with the line if it is no YAML, for aliases, and
+// for more than kMaxJsonDepth levels.
 nlohmann::json JsonOfYaml(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace retrolux
