@@ -6,6 +6,7 @@
 #include "analysis/hotspot_placement_report.h"
 #include "analysis/hotspot_report_plots.h"
 #include "analysis/hotspot_report_tables.h"
+#include "analysis/room_figure.h"
 #include "core/atomic_file.h"
 
 namespace retrolux {

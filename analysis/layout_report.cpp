@@ -4,6 +4,7 @@
 #include "analysis/plotly_figure.h"
 #include "analysis/raised_picture.h"
 #include "analysis/report.h"
+#include "analysis/room_figure.h"
 #include "core/atomic_file.h"
 #include "core/image_file.h"
 

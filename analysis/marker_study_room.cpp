@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/marker_study_sections.h"
+#include "analysis/room_figure.h"
 #include "core/error.h"
 
 namespace retrolux {

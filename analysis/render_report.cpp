@@ -4,6 +4,7 @@
 
 #include "analysis/picture_channels.h"
 #include "analysis/raised_picture.h"
+#include "analysis/room_figure.h"
 #include "core/atomic_file.h"
 #include "core/csv.h"
 #include "core/error.h"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/report.h"
+#include "scenes/scene.h"
 
 namespace retrolux {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/base64.h"
+#include "analysis/room_figure.h"
 #include "core/atomic_file.h"
 #include "core/data_path.h"
 #include "core/error.h"

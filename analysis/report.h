@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/room_figure.h"
-
 namespace retrolux {
+
+struct RoomFigure;  // analysis/room_figure.h
 
 // A number that decides something, shown large: {"Usable area", "41.2", "%", "marker 2,
 // reference"}.

@@ -9,6 +9,7 @@
 
 #include "classifier/detections_json.h"
 #include "classifier/method.h"
+#include "cli/command_tree.h"
 #include "cli/commands.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -107,9 +108,8 @@ void SetUpClassify(CLI::App& app, const GlobalOptions& global, Run& run) {
       "A pattern cut by the border of the picture is not looked at; one that matches no marker is\n"
       "written with \"marker\": null. Coordinates in px, (0, 0) = centre of the top-left pixel.");
   command->add_option("IMAGE", options->images, "Pictures (PNG, TIFF, EXR, ...)")->required();
-  command
-      ->add_option("--method", options->method,
-                   fmt::format("Identification method: {}", JoinNames(MethodNames())))
+  command->add_option("--method", options->method, "Identification method")
+      ->type_name(ChoiceType(MethodNames()))
       ->capture_default_str();
   command->add_option("--set", options->set,
                       "Marker set, a JSON file with lengths in mm [default: the built-in six]");

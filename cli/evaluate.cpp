@@ -150,9 +150,9 @@ void SetUpEvaluate(CLI::App& app, const GlobalOptions& global, Run& run) {
   sub->add_option("DATASET", command->dataset, "folder that `dataset run` finished")->required();
   sub->add_option("--out", command->out, "folder for the results")->required();
   sub->add_option("--method", command->methods,
-                  fmt::format("{}; several times: compared on the same pictures. Default: robust "
-                              "and edges, with --detections none",
-                              JoinNames(MethodNames())))
+                  "several times: compared on the same pictures. Default: robust and edges, with "
+                  "--detections none")
+      ->type_name(ChoiceType(MethodNames()))
       ->allow_extra_args(false);
   sub->add_option("--split", command->split, "pictures of test, val, train or all")
       ->check(CLI::IsMember({"test", "val", "train", "all"}))

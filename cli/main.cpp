@@ -116,6 +116,8 @@ int main(int argc, char** argv) {
   SetUpReport(app, global, run);
   SetUpView(app, global, run);
   SetUpDiff(app, global, run);
+  SetUpCompletion(app, global, run);
+  SetUpManual(app, global, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

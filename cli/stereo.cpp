@@ -73,8 +73,8 @@ void SetUpStereo(CLI::App& app, const GlobalOptions& global, Run& run) {
   StereoFolderOptions& stereo = command->stereo;
   sub->add_option("folder", stereo.folder, "folder of a shot")->required();
   sub->add_option("--out", command->out, "folder for the results")->required();
-  sub->add_option("--method", stereo.method,
-                  fmt::format("identification method: {}", JoinNames(MethodNames())))
+  sub->add_option("--method", stereo.method, "identification method")
+      ->type_name(ChoiceType(MethodNames()))
       ->capture_default_str();
   sub->add_option("--detections", stereo.detections, "detections.json of any detector");
   sub->add_option("--constellation", stereo.constellation,

@@ -4,6 +4,7 @@
 #include "analysis/layout_study.h"
 #include "analysis/marker_study.h"
 #include "classifier/method.h"
+#include "cli/command_tree.h"
 #include "cli/run_json.h"
 #include "cli/study.h"
 #include "scenes/scene_json.h"
@@ -88,8 +89,8 @@ void SetUpStudyLayout(CLI::App& study, const GlobalOptions& global, Run& run) {
                   "names of poses, or 'scan': every 5 mm from start to end")
       ->delimiter(',')
       ->capture_default_str();
-  sub->add_option("--method", command->study.method,
-                  fmt::format("how markers are identified: {}", JoinNames(MethodNames())))
+  sub->add_option("--method", command->study.method, "how markers are identified")
+      ->type_name(ChoiceType(MethodNames()))
       ->capture_default_str();
   sub->add_option("--material", command->study.material, "what the markers are made of")
       ->capture_default_str();

@@ -5,9 +5,12 @@
 
 namespace retrolux {
 
-// The path of `relative` (e.g. "materials/data/qe_interline_ccd.csv"), looked for under
-// RETROLUX_DATA of the environment, then under ../share/retrolux of the program, then in the source
-// tree. InputError if it is in none of them.
+// The path of `relative` (e.g. "materials/data/qe_interline_ccd.csv"), looked for in this order:
+//   1. the folder that RETROLUX_DATA of the environment names; it need not hold every file;
+//   2. ../share/retrolux of the running program (where `cmake --install` and the package put it);
+//   3. the source tree of the build, only if there is no folder 2, so that an installed program
+//      never mixes its data with those of another version.
+// InputError, which names the folders that were looked into, if it is in none of them.
 std::filesystem::path DataPath(const std::filesystem::path& relative);
 
 }  // namespace retrolux

@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/camera_model.h"
 #include "core/csv.h"
+#include "core/data_path.h"
 #include "core/image_file.h"
 #include "core/json_reader.h"
 #include "core/marker_set.h"
@@ -231,6 +232,22 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
   EXPECT_FALSE(fs::exists(Scratch("never.txt")));
   EXPECT_THAT(MessageOf([] { WriteTextFile("/proc/no/such/place", "x"); }),
               testing::HasSubstr("expected a place that can be written to"));
+}
+
+// The folder beside an installed program: tests/install_test.sh.
+TEST(DataPath, TheEnvironmentsFolderBeforeTheSourceTree) {
+  const fs::path ours = "scenes/data/markers.json";
+  const fs::path source = DataPath(ours);
+  fs::create_directories(OwnFolder() / ours.parent_path());
+  WriteTextFile(OwnFolder() / ours, "{}");
+  ASSERT_EQ(setenv("RETROLUX_DATA", OwnFolder().c_str(), 1), 0);
+  EXPECT_EQ(DataPath(ours), OwnFolder() / ours);
+  EXPECT_EQ(DataPath("scenes/data/sensors.json"), source.parent_path() / "sensors.json");
+  EXPECT_THAT(MessageOf([] { DataPath("none.csv"); }),
+              testing::MatchesRegex("none.csv: .*" + OwnFolder().string() +
+                                    " or .*/share/retrolux or .*RETROLUX_DATA.*"));
+  unsetenv("RETROLUX_DATA");
+  EXPECT_THAT(MessageOf([] { DataPath("../none.csv"); }), testing::HasSubstr("leaves"));
 }
 
 TEST(Csv, NumbersWithSourceComments) {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "analysis/report.h"
+#include "analysis/room_figure.h"
 #include "core/conventions.h"
 #include "core/csv.h"
 #include "core/error.h"

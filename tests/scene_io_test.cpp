@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/atomic_file.h"
+#include "core/data_path.h"
 #include "core/json_reader.h"
 #include "scenes/built_in.h"
 #include "scenes/gltf.h"
@@ -292,8 +293,7 @@ TEST_F(SceneJson, DefaultsAreThoseOfTheStructs) {
 }
 
 TEST_F(SceneJson, SchemaStatesTheDefaults) {
-  const json schema = json::parse(
-      ReadTextFile(fs::path(RETROLUX_SOURCE_DATA) / "scenes/schema/scene-1.schema.json"));
+  const json schema = json::parse(ReadTextFile(DataPath("scenes/schema/scene-1.schema.json")));
   const auto defaults = [&](const std::string& part) {
     json values = json::object();
     for (const auto& [key, property] : schema["$defs"][part]["properties"].items())
@@ -311,8 +311,7 @@ TEST_F(SceneJson, SchemaStatesTheDefaults) {
 }
 
 TEST_F(SceneJson, SensorOptionsHaveTheDefaultsOfTheSchema) {
-  const json schema = json::parse(
-      ReadTextFile(fs::path(RETROLUX_SOURCE_DATA) / "scenes/schema/scene-1.schema.json"));
+  const json schema = json::parse(ReadTextFile(DataPath("scenes/schema/scene-1.schema.json")));
   json scene = Smallest();
   for (const char* option : {"blooming", "smear", "defects"}) {
     for (const auto& [key, property] : schema["$defs"][option]["properties"].items())
