@@ -140,6 +140,7 @@ std::optional<std::vector<size_t>> RandomLayout(const Search& search,
                                                 const std::vector<size_t>& useful, size_t markers,
                                                 KeyedRng& rng) {
   constexpr int kTries = 1000;
+  if (useful.empty()) return std::nullopt;
   std::vector<size_t> layout;
   for (int i = 0; i < kTries && layout.size() < markers; ++i) {
     const auto n = static_cast<double>(useful.size());

@@ -682,6 +682,9 @@ holds "study layout: a pair names three" layout1/layout.json \
 succeed "study layout on the face" study layout --mask face --poses start --spp 1 --out layout-face
 holds "study layout on the face: what the search promised" layout-face/layout.json \
   'json.margin + 3 >= json.promised.least_common && json.promised.least_common >= 4'
+run scene export ct-room --out ct-room
+sed 's/"size": \[640, 480\]/"size": [40, 30]/' ct-room/scene.json >ct-room/corner.json
+refuse "study layout: cameras that see nothing of the mask" "no 6 places let a pair of cameras see three markers" bad study layout --scene ct-room/corner.json --poses reference --out bad
 refuse "study layout: no mask" "no object 'mask' that moves with the pose" bad study layout --scene sphere --out bad
 
 # --------------------------------------------------------------------------------------------------------------- help
