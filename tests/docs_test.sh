@@ -139,7 +139,7 @@ subcommand() {
 run_page() {
   local page=$1 folder=$2 documented command text comment option name started code lacking
   mkdir -p "$folder/build/release/cli" "$folder/out"
-  for name in docs scenes materials bench; do [ -e "$folder/$name" ] || ln -s "$top/$name" "$folder/$name"; done
+  for name in docs scenes materials bench scripts; do [ -e "$folder/$name" ] || ln -s "$top/$name" "$folder/$name"; done
   [ -e "$folder/build/release/cli/retrolux" ] || ln -s "$retrolux" "$folder/build/release/cli/retrolux"
   while IFS= read -r documented; do
     text=$(echo "$documented" | sed -E 's/ +#.*$//')
