@@ -6,6 +6,7 @@
 #include "analysis/evaluation_files.h"
 #include "analysis/evaluation_input.h"
 #include "analysis/evaluation_report.h"
+#include "cli/command_tree.h"
 #include "cli/run_json.h"
 #include "core/atomic_file.h"
 #include "core/marker_set.h"

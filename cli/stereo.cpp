@@ -3,6 +3,7 @@
 
 #include "analysis/stereo_files.h"
 #include "classifier/method.h"
+#include "cli/command_tree.h"
 #include "cli/run_json.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
