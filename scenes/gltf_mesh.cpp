@@ -180,6 +180,7 @@ class MeshConverter {
     if (primitive.indices >= 0) {
       indices = Indices(primitive.indices, place);
     } else {
+      memory_.Take(file_, place, 8 * vertices);
       for (uint32_t i = 0; i < vertices; ++i) indices.push_back(i);
     }
     if (indices.size() % 3 != 0)

@@ -423,9 +423,8 @@ TEST_F(SceneJson, WrongObjectsAreRefused) {
             "orthonormal rows "
             "with determinant +1");
   EXPECT_EQ(Wrong("/objects/0/file", "none.glb"),
-            "scene.json: /objects/0/file: found no file \"none.glb\"; expected a mesh file below "
-            "the folder of the "
-            "scene");
+            "scene.json: /objects/0/file: found no file \"none.glb\"; expected a file below the "
+            "folder of scene.json");
   for (const std::string path : {"../a.glb", "/etc/a.glb", "x/../../a.glb"}) {
     EXPECT_EQ(Wrong("/objects/0/file", path),
               "scene.json: /objects/0/file: found \"" + path +
