@@ -17,6 +17,7 @@
 #include "core/sampler.h"
 #include "core/sampling.h"
 #include "core/thread_limit.h"
+#include "core/yaml_text.h"
 #include "tests/message_of.h"
 #include "tests/own_folder.h"
 #include "tests/statistics.h"
@@ -320,6 +321,24 @@ TEST(Parallel, AnErrorOutsideLeavesInnerLoopsWhole) {
                InputError);
   EXPECT_GT(begun, 1);
   EXPECT_EQ(cut, 0);
+}
+
+TEST(Yaml, BlocksBracketsAndComments) {
+  const std::string text =
+      "%YAML:1.0\n---\n# comment\nname: \"a: \\\"b\\\"\"\nwhole: -3 # comment\nreal: 1.5e+1\n"
+      "huge: 1e400\nempty:\nlist:\n- 1.\n-  x: 1\n   y: !!opencv-matrix\n      rows: 3\n"
+      "flow: { a: [ 1,\n 2 ], b: !!t { c: plain text } }\n";
+  EXPECT_EQ(JsonOfYaml(text, "a.yml"), nlohmann::json::parse(R"({
+      "name": "a: \"b\"", "whole": -3, "real": 15.0, "huge": "1e400", "empty": null,
+      "list": [1.0, {"x": 1, "y": {"rows": 3}}],
+      "flow": {"a": [1, 2], "b": {"c": "plain text"}}})"));
+  const auto message = [](const std::string& body) {
+    return MessageOf([&] { JsonOfYaml("%YAML:1.0\n---\n" + body, "a.yml"); });
+  };
+  EXPECT_THAT(message("a: [1, 2"), testing::HasSubstr("a.yml: line "));
+  EXPECT_THAT(message("a: *b"), testing::HasSubstr("expected YAML as OpenCV's FileStorage writes"));
+  EXPECT_THAT(message("a: " + std::string(100'000, '[')),
+              testing::HasSubstr("YAML nested more than 64 deep"));
 }
 
 TEST(Parallel, AllStepsOnceAndErrorsComeThrough) {
