@@ -63,7 +63,8 @@ LevelPlane SteepestLevel(const GradientField& field, const std::vector<Pixel>& p
                          const PixelBox& box) {
   LevelFit fit({0.5 * (box.x0 + box.x1 - 1), 0.5 * (box.y0 + box.y1 - 1)});
   for (const Pixel& p : pixels) {
-    fit.Add(Vec2d(p.x, p.y), field.smooth(p.x, p.y), field.slope(p.x, p.y));
+    fit.Add(Vec2d(p.x, p.y), static_cast<double>(field.smooth(p.x, p.y)),
+            static_cast<double>(field.slope(p.x, p.y)));
   }
   return fit.Solve();
 }

@@ -115,8 +115,9 @@ double SampleBilinear(const FloatPlane& plane, double x, double y) {
   const int y1 = std::min(y0 + 1, plane.height - 1);
   const float fx = static_cast<float>(x - x0);
   const float fy = static_cast<float>(y - y0);
-  return (1.0f - fy) * ((1.0f - fx) * plane(x0, y0) + fx * plane(x1, y0)) +
-         fy * ((1.0f - fx) * plane(x0, y1) + fx * plane(x1, y1));
+  const float value = (1.0f - fy) * ((1.0f - fx) * plane(x0, y0) + fx * plane(x1, y0)) +
+                      fy * ((1.0f - fx) * plane(x0, y1) + fx * plane(x1, y1));
+  return static_cast<double>(value);
 }
 
 }  // namespace retrolux

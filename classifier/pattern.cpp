@@ -31,8 +31,8 @@ double Median(std::vector<double> values) {
 }
 
 double NoiseAt(const GradientField& field, const Vec2d& px) {
-  return field.noise.At(static_cast<int>(std::lround(px.x())),
-                        static_cast<int>(std::lround(px.y())));
+  return static_cast<double>(
+      field.noise.At(static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y()))));
 }
 
 // The picture beside each point of an outline.
