@@ -3,6 +3,7 @@
 
 #include "analysis/folder_difference.h"
 #include "cli/commands.h"
+#include "core/error.h"
 
 namespace retrolux::cli {
 
