@@ -239,7 +239,8 @@ std::vector<Beam> ReadBeams(JsonReader& json) {
   return beams;
 }
 
-// The path that a "base" means: a file beside the one that names it, or a built-in scenario.
+// The path that a "base" means: a file beside the one that names it, a built-in scenario, or one of
+// the data folder, "scenes/data/...".
 fs::path BaseFile(const fs::path& file, const nlohmann::json& base) {
   if (base.is_string()) {
     const fs::path name = base.get<std::string>();
@@ -247,6 +248,7 @@ fs::path BaseFile(const fs::path& file, const nlohmann::json& base) {
     const std::vector<std::string> names = BuiltInScenarioNames();
     if (std::find(names.begin(), names.end(), name) != names.end())
       return DataPath(kScenarioFolder / (name.string() + ".json"));
+    if (name.string().starts_with("scenes/data/")) return DataPath(name);
   }
   throw InputError::At(file, "/base", "no such scenario",
                        fmt::format("a file beside this one, or one of the built-in {}",
