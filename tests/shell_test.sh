@@ -80,10 +80,11 @@ if command -v groff >/dev/null && command -v man >/dev/null; then
   expect "manual: roff finds nothing wrong" "$(groff -man -ww -z retrolux.1 2>&1)" ""
   expect "manual: man finds nothing wrong" "$(LC_ALL=C.UTF-8 man -l --warnings retrolux.1 2>&1 >manual.txt)" ""
   LC_ALL=C.UTF-8 MANWIDTH=300 man -l retrolux.1 >manual.txt
+  sections() { grep -c "^\.SS .*fBretrolux $1.fR" retrolux.1; }
   for command in $(subcommands); do
-    expect "manual: $command" "$(grep -cE "^ +retrolux $command( [A-Z[]|\$)" manual.txt)" 1
+    expect "manual: $command" "$(sections "$command")" 1
     for sub in $(subcommands "$command"); do
-      expect "manual: $command $sub" "$(grep -cE "^ +retrolux $command $sub( [A-Za-z[]|\$)" manual.txt)" 1
+      expect "manual: $command $sub" "$(sections "$command $sub")" 1
     done
   done
   expect "manual: an option, its choices and default" \
