@@ -88,6 +88,14 @@ for page in "${pages[@]}"; do
   [ "$page" = README.md ] || [ "$page" = docs/README.md ] || grep -q "($(basename "$page"))" "$top/docs/README.md" || bad "docs/README.md" "does not list $page"
 done
 good "docs/README.md lists every page"
+# Files of the source tree that pages name.
+for page in "${pages[@]}"; do
+  # shellcheck disable=SC2016
+  for file in $(grep -oE '`(core|materials|scenes|renderer|classifier|analysis|cli|tests|bench|scripts|fuzz|docs)/[A-Za-z0-9_./-]+\.[a-z]+`' "$top/$page" | tr -d '`' | sort -u); do
+    [[ $file =~ (NAME|TYPE|SUBJECT) ]] || [ -e "$top/$file" ] || bad "$page" "names $file, which is not there"
+  done
+done
+good "files that the pages name"
 
 # ---------------------------------------------------------------------------------------------------- the commands
 # commands PAGE: one a line, of its indented or fenced blocks; README's table apart. Continued lines are joined.
@@ -100,7 +108,7 @@ commands() {
     line ~ /\\$/ { sub(/ *\\$/, " ", line); joined = line; next }
     {
       sub(/^ +/, "", line)
-      if (line ~ /^(retrolux|cp|mkdir|sed|export|node) / || line ~ /^(scripts|bench|build\/release|\/[a-z]+)\/[^ ]/ || line ~ /^[0-9*]+ [0-9*]+ \* \* \* /) print line
+      if (line ~ /^(retrolux|cp|mkdir|sed|export|node|cmake|cpack|ctest|docker|man) / || line ~ /^(scripts|bench|build\/release|\/[a-z]+)\/[^ ]/ || line ~ /^[0-9*]+ [0-9*]+ \* \* \* /) print line
     }' "$1" | grep -v '^retrolux:'
 }
 
@@ -139,7 +147,7 @@ subcommand() {
 run_page() {
   local page=$1 folder=$2 documented command text comment option name started code lacking
   mkdir -p "$folder/build/release/cli" "$folder/out"
-  for name in docs scenes materials bench scripts; do [ -e "$folder/$name" ] || ln -s "$top/$name" "$folder/$name"; done
+  for name in docs scenes materials bench scripts tests; do [ -e "$folder/$name" ] || ln -s "$top/$name" "$folder/$name"; done
   [ -e "$folder/build/release/cli/retrolux" ] || ln -s "$retrolux" "$folder/build/release/cli/retrolux"
   while IFS= read -r documented; do
     text=$(echo "$documented" | sed -E 's/ +#.*$//')
