@@ -71,7 +71,7 @@ std::optional<PlaceError> ErrorOf(const Vec2d& measured, const std::optional<Vec
 MarkerResult ResultOf(const EvaluatedMarker& marker, const MarkerOutcome& match,
                       const std::vector<Detection>& detections) {
   MarkerResult result{match, std::nullopt, std::nullopt, {}};
-  if (match.outcome != Outcome::kFound) return result;
+  if (match.outcome != LabelOutcome::kFound) return result;
   const MarkerLabel& label = *marker.label;
   const Detection& detection = detections[*match.detection];
   const auto& truth = label.dark ? label.centroid_outline_px : label.centroid_radiometric_px;

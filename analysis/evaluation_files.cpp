@@ -8,10 +8,10 @@ namespace retrolux {
 
 namespace {
 
-const char* NameOf(Outcome outcome) {
-  if (outcome == Outcome::kFound) return "found";
-  if (outcome == Outcome::kMisnamed) return "misnamed";
-  return outcome == Outcome::kUnnamed ? "unnamed" : "missed";
+const char* NameOf(LabelOutcome outcome) {
+  if (outcome == LabelOutcome::kFound) return "found";
+  if (outcome == LabelOutcome::kMisnamed) return "misnamed";
+  return outcome == LabelOutcome::kUnnamed ? "unnamed" : "missed";
 }
 
 std::string Cell(double value) {

@@ -135,7 +135,7 @@ std::vector<Spot> Missed(const Evaluation& evaluation, const MethodResult& metho
     const MarkerLabel& label = *marker.label;
     const bool expected = marker.whole && label.size_px >= limits.target_size_px &&
                           label.incidence_deg < limits.target_steep_incidence_deg;
-    if (!expected || match.outcome == Outcome::kFound) continue;
+    if (!expected || match.outcome == LabelOutcome::kFound) continue;
     Spot spot{marker.picture, i, nullptr, label.snr.value_or(0.0)};
     if (match.detection) spot.detection = &evaluation.DetectionsAt(method, i)[*match.detection];
     spots.push_back(spot);

@@ -60,7 +60,7 @@ Scores ScoresOf(const Evaluation& evaluation, const MethodResult& method,
   for (const size_t i : choice.markers) {
     const MarkerResult& result = method.markers[i];
     const bool counts = evaluation.markers[i].shape.counts || choice.all_markers;
-    const bool found = result.match.outcome == Outcome::kFound;
+    const bool found = result.match.outcome == LabelOutcome::kFound;
     scores.markers += counts;
     scores.misnamed += result.match.wrong_names;
     scores.found += counts && found;
@@ -105,11 +105,11 @@ Confusion ConfusionOf(const Evaluation& evaluation, const MethodResult& method) 
     }
   }
   for (size_t i = 0; i < evaluation.markers.size(); ++i) {
-    const Outcome outcome = method.markers[i].match.outcome;
+    const LabelOutcome outcome = method.markers[i].match.outcome;
     if (!evaluation.markers[i].shape.counts) continue;
     const size_t row = place(evaluation.markers[i].label->number);
-    if (outcome == Outcome::kUnnamed) ++confusion.counts[row][unnamed];
-    if (outcome == Outcome::kMissed) ++confusion.counts[row][none];
+    if (outcome == LabelOutcome::kUnnamed) ++confusion.counts[row][unnamed];
+    if (outcome == LabelOutcome::kMissed) ++confusion.counts[row][none];
   }
   return confusion;
 }
@@ -124,8 +124,8 @@ std::vector<PairedResult> PairedResults(const Evaluation& evaluation) {
         for (size_t i = 0; i < evaluation.markers.size(); ++i) {
           if (!evaluation.markers[i].shape.counts || !condition.holds(evaluation.markers[i]))
             continue;
-          const bool by_first = first.markers[i].match.outcome == Outcome::kFound;
-          const bool by_second = second.markers[i].match.outcome == Outcome::kFound;
+          const bool by_first = first.markers[i].match.outcome == LabelOutcome::kFound;
+          const bool by_second = second.markers[i].match.outcome == LabelOutcome::kFound;
           result.both += by_first && by_second;
           result.first_only += by_first && !by_second;
           result.second_only += !by_first && by_second;

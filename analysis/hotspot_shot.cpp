@@ -74,7 +74,8 @@ Found Identify(const DigitalImage& image, const std::string& method, const Hotsp
     if (!shapes[m].counts) continue;
     const MarkerOutcome& outcome = match.markers[m];
     found.markers.emplace_back();
-    if (outcome.outcome == Outcome::kFound) found.markers.back() = detections[*outcome.detection];
+    if (outcome.outcome == LabelOutcome::kFound)
+      found.markers.back() = detections[*outcome.detection];
   }
   for (const JudgedDetection& judged : match.detections) {
     const bool named = judged.verdict != Verdict::kUnnamed && judged.verdict != Verdict::kFound &&

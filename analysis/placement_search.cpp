@@ -104,7 +104,7 @@ struct Candidate {
 
 }  // namespace
 
-std::vector<Evaluation> PlacementSearch::Evaluate(
+std::vector<PlacementWorth> PlacementSearch::Evaluate(
     std::span<const Placement> placements, const std::vector<OrientationWorth>& known) const {
   std::vector<std::unique_ptr<Candidate>> candidates;
   for (const Placement& placement : placements)
@@ -132,7 +132,7 @@ std::vector<Evaluation> PlacementSearch::Evaluate(
     }
   });
 
-  std::vector<Evaluation> evaluations;
+  std::vector<PlacementWorth> evaluations;
   for (size_t i = 0; i < candidates.size(); ++i) {
     size_t worst = rotations_.size();
     const std::vector<OrientationWorth>& worths = candidates[i]->worths;
@@ -146,9 +146,9 @@ std::vector<Evaluation> PlacementSearch::Evaluate(
   return evaluations;
 }
 
-Evaluation PlacementSearch::Described(const Placement& placement, const OrientationWorth& worth,
-                                      int rotation) const {
-  Evaluation evaluation = {placement, worth, rotation};
+PlacementWorth PlacementSearch::Described(const Placement& placement, const OrientationWorth& worth,
+                                          int rotation) const {
+  PlacementWorth evaluation = {placement, worth, rotation};
   if (worth.combination != 0) {
     const PlacementWeights weights(scenario_, error_, placement);
     evaluation.min_angle_rad = weights.MinAngleRad(worth.combination);

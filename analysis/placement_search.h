@@ -19,7 +19,7 @@ struct OrientationWorth {
 };
 
 // A placement at its worst orientation.
-struct Evaluation {
+struct PlacementWorth {
   Placement placement;
   OrientationWorth worth;
   int rotation = 0;                                         // index in PlacementSearch::Rotations()
@@ -49,10 +49,10 @@ class PlacementSearch {
   // cameras: one combination that sees more than the worst so far acquits an orientation. Uses all
   // threads; the result does not depend on their number. `known` are the orientations of a
   // placement nearby: the nearer, the less work.
-  std::vector<Evaluation> Evaluate(std::span<const Placement> placements,
-                                   const std::vector<OrientationWorth>& known) const;
-  Evaluation Evaluate(const Placement& placement,
-                      const std::vector<OrientationWorth>& known) const {
+  std::vector<PlacementWorth> Evaluate(std::span<const Placement> placements,
+                                       const std::vector<OrientationWorth>& known) const;
+  PlacementWorth Evaluate(const Placement& placement,
+                          const std::vector<OrientationWorth>& known) const {
     return Evaluate({&placement, 1}, known).front();
   }
 
@@ -60,8 +60,8 @@ class PlacementSearch {
   std::vector<OrientationWorth> Orientations(const Placement& placement) const;
 
   // An evaluation of which only the worst orientation is known.
-  Evaluation Described(const Placement& placement, const OrientationWorth& worth,
-                       int rotation) const;
+  PlacementWorth Described(const Placement& placement, const OrientationWorth& worth,
+                           int rotation) const;
 
   // What camera `camera` (from 0) sees in an orientation, nozzles taken out.
   SampleSet SeenBy(const Placement& placement, int camera, int rotation) const;

@@ -88,7 +88,7 @@ std::vector<PlacementResult> PlacementTasks::Evaluate(const std::string& stage, 
   const auto evaluate = [&](size_t task) {
     const auto& [slice, search] = work[task];
     nlohmann::json rows = nlohmann::json::array();
-    for (const Evaluation& e :
+    for (const PlacementWorth& e :
          search->Evaluate(slice->placements, search->Orientations(slice->hint)))
       rows.push_back({ToJson(e.worth), e.rotation});
     placements_ += static_cast<int64_t>(slice->placements.size());

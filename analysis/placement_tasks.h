@@ -12,11 +12,11 @@ namespace retrolux {
 // A placement, with the worst orientation of each mask.
 struct PlacementResult {
   int phase = 1;
-  std::vector<Evaluation> by_mask;  // as VaultStudyOptions::masks
+  std::vector<PlacementWorth> by_mask;  // as VaultStudyOptions::masks
 
   const Placement& Where() const { return by_mask.front().placement; }
   size_t WorstMask() const;
-  const Evaluation& Worst() const { return by_mask[WorstMask()]; }
+  const PlacementWorth& Worst() const { return by_mask[WorstMask()]; }
   double Cost() const { return Worst().Cost(); }
 };
 

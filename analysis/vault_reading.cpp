@@ -39,7 +39,7 @@ std::string Masks(const VaultStudy& study) {
 
 std::string Found(const VaultStudy& study) {
   const PlacementResult& best = study.best.result;
-  const Evaluation& e = best.Worst();
+  const PlacementWorth& e = best.Worst();
   std::string text =
       study.results.size() == 1
           ? fmt::format("One placement was looked at, **{}**, over {} orientations of the {}. ",

@@ -66,7 +66,7 @@ class VaultReport {
   }
 
   void Summary() {
-    const Evaluation& e = best_.Worst();
+    const PlacementWorth& e = best_.Worst();
     const bool counts = e.worth.combination != 0;
     const auto rig = [&](const char* name, double theta_deg) {
       return KeyFigure{name, Degrees(theta_deg), "",

@@ -18,7 +18,7 @@ double Percent(const VaultStudy& study, size_t mask, double area_mm2) {
 
 std::vector<std::string> EvaluationRow(const VaultStudy& study, const PlacementResult& result,
                                        size_t mask) {
-  const Evaluation& e = result.by_mask[mask];
+  const PlacementWorth& e = result.by_mask[mask];
   const MaskRotation& rotation = study.rotations[mask][static_cast<size_t>(e.rotation)];
   return {std::to_string(result.phase),
           CsvNumber(e.placement.phi_b_deg),
@@ -65,8 +65,8 @@ void WriteOrientations(const VaultStudy& study, const std::filesystem::path& fol
       const MaskRotation& rotation = study.rotations[mask][i];
       const OrientationWorth& worth = study.best.orientations[mask][i];
       table.Row({CsvNumber(rotation.x_deg), CsvNumber(rotation.y_deg), CsvNumber(rotation.z_deg),
-                 CsvNumber(worth.cost_mm2 / Evaluation::kCostUnit_mm2), NameOf(worth.combination),
-                 study.options.masks[mask]});
+                 CsvNumber(worth.cost_mm2 / PlacementWorth::kCostUnit_mm2),
+                 NameOf(worth.combination), study.options.masks[mask]});
     }
   }
   table.Write(folder / "orientations.csv");
@@ -79,7 +79,7 @@ nlohmann::json ToJson(const Placement& placement) {
 }
 
 nlohmann::json ToJson(const VaultStudy& study, const PlacementResult& result) {
-  const Evaluation& e = result.Worst();
+  const PlacementWorth& e = result.Worst();
   const size_t mask = result.WorstMask();
   const MaskRotation& rotation = RotationOf(study, result);
   nlohmann::json cameras = nlohmann::json::array();

@@ -45,7 +45,7 @@ std::vector<std::string> SolutionRow(const std::string& name, const ThesisSoluti
 
 std::vector<std::string> SolutionRow(const std::string& name, const VaultStudy& study,
                                      const PlacementResult& result) {
-  const Evaluation& e = result.Worst();
+  const PlacementWorth& e = result.Worst();
   const bool counts = e.worth.combination != 0;
   const double mask_area = study.mask_area_mm2[result.WorstMask()];
   return {name,

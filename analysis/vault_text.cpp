@@ -35,7 +35,7 @@ double OverFloor_mm(const Scenario& scenario, double theta_deg) {
 std::vector<double> CostsOf(const std::vector<OrientationWorth>& orientations) {
   std::vector<double> costs;
   for (const OrientationWorth& worth : orientations)
-    costs.push_back(worth.cost_mm2 / Evaluation::kCostUnit_mm2);
+    costs.push_back(worth.cost_mm2 / PlacementWorth::kCostUnit_mm2);
   return costs;
 }
 

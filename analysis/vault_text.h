@@ -16,7 +16,7 @@ std::string SignedPercent(double fraction);  // "+1.2 %", "−0.3 %"
 // Height of a rig over the floor.
 double OverFloor_mm(const Scenario& scenario, double theta_deg);
 
-// Costs of orientations in the unit of Evaluation::Cost().
+// Costs of orientations in the unit of PlacementWorth::Cost().
 std::vector<double> CostsOf(const std::vector<OrientationWorth>& orientations);
 
 // The orientation that a result's cost is of.

@@ -36,9 +36,9 @@ std::optional<size_t> MarkerUnder(const std::vector<LabelledShape>& markers, con
   return under;
 }
 
-Outcome OutcomeOf(const Detection& detection, const LabelledShape& marker) {
-  if (!detection.marker) return Outcome::kUnnamed;
-  return *detection.marker == marker.number ? Outcome::kFound : Outcome::kMisnamed;
+LabelOutcome OutcomeOf(const Detection& detection, const LabelledShape& marker) {
+  if (!detection.marker) return LabelOutcome::kUnnamed;
+  return *detection.marker == marker.number ? LabelOutcome::kFound : LabelOutcome::kMisnamed;
 }
 
 // Whether detection a says more of the marker than b.
@@ -72,7 +72,7 @@ PictureMatch MatchDetections(const std::vector<LabelledShape>& markers,
     if (!judged.marker) continue;
     const LabelledShape& shape = markers[*judged.marker];
     MarkerOutcome& marker = match.markers[*judged.marker];
-    if (OutcomeOf(detections[i], shape) == Outcome::kMisnamed) {
+    if (OutcomeOf(detections[i], shape) == LabelOutcome::kMisnamed) {
       judged.verdict = Verdict::kMisnamed;
       ++marker.wrong_names;
     } else if (!shape.counts) {

@@ -33,7 +33,7 @@ struct JudgedDetection {
 };
 
 // What became of a marker; the first that holds.
-enum class Outcome {
+enum class LabelOutcome {
   kFound,     // at least one detection on it has its name
   kMisnamed,  // those with names have others
   kUnnamed,   // a pattern without a name lies there
@@ -41,7 +41,7 @@ enum class Outcome {
 };
 
 struct MarkerOutcome {
-  Outcome outcome = Outcome::kMissed;
+  LabelOutcome outcome = LabelOutcome::kMissed;
   // The detection that decided: of those on the marker with that outcome the most confident, then
   // the one nearest to its centre.
   std::optional<size_t> detection;

@@ -103,8 +103,8 @@ TEST(Matching, NamesOfTouchingMarkersThatAreSwappedAreBothWrong) {
   EXPECT_THAT(VerdictsOf(match), ElementsAre(Verdict::kMisnamed, Verdict::kMisnamed));
   EXPECT_EQ(match.detections[0].marker, 0u);
   EXPECT_EQ(match.detections[1].marker, 1u);
-  EXPECT_EQ(match.markers[0].outcome, Outcome::kMisnamed);
-  EXPECT_EQ(match.markers[1].outcome, Outcome::kMisnamed);
+  EXPECT_EQ(match.markers[0].outcome, LabelOutcome::kMisnamed);
+  EXPECT_EQ(match.markers[1].outcome, LabelOutcome::kMisnamed);
 }
 
 TEST(Matching, OfTwoRightNamesTheMoreConfidentOneCountsTheOtherIsADuplicate) {
@@ -120,7 +120,7 @@ TEST(Matching, AWrongNameBesideTheRightOneIsMisnamedAndTheMarkerIsFound) {
   const PictureMatch match = MatchDetections({ShapeAt(4, {50, 50})},
                                              {Named(1, {45, 50}, 1.0), Named(4, {50, 50}, 0.5)}, 2);
   EXPECT_THAT(VerdictsOf(match), ElementsAre(Verdict::kMisnamed, Verdict::kFound));
-  EXPECT_EQ(match.markers[0].outcome, Outcome::kFound);
+  EXPECT_EQ(match.markers[0].outcome, LabelOutcome::kFound);
   EXPECT_EQ(match.markers[0].wrong_names, 1);
 }
 
@@ -130,7 +130,7 @@ TEST(Matching, ANameBesideAllMarkersIsAFalsePositiveAPatternWithoutNameIsNot) {
       {Named(4, {80, 50}), Named(std::nullopt, {90, 50}), Named(std::nullopt, {50, 50})}, 2);
   EXPECT_THAT(VerdictsOf(match),
               ElementsAre(Verdict::kNothing, Verdict::kUnnamed, Verdict::kUnnamed));
-  EXPECT_EQ(match.markers[0].outcome, Outcome::kUnnamed);
+  EXPECT_EQ(match.markers[0].outcome, LabelOutcome::kUnnamed);
   EXPECT_EQ(match.markers[0].detection, 2u);
 }
 

@@ -393,7 +393,7 @@ TEST(PlacementSearch, AcquittingOrientationsIsExact) {
     for (const double phi_b : {20.0, 40.0, 60.0}) placements.push_back({phi_b, theta1, 62.75});
   }
   const auto known = search.Orientations(placements[4]);
-  const std::vector<Evaluation> evaluations = search.Evaluate(placements, known);
+  const std::vector<PlacementWorth> evaluations = search.Evaluate(placements, known);
   for (size_t i = 0; i < placements.size(); ++i) {
     const auto all = search.Orientations(placements[i]);
     const auto worst = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -409,7 +409,7 @@ TEST(PlacementSearch, IsTheSameOnOneThreadAndOnFour) {
   const Scenario scenario = SmallScenario();
   std::vector<Placement> placements;
   for (const double phi_b : {30.0, 50.0, 70.0}) placements.push_back({phi_b, 39.44, 70.52});
-  std::vector<std::vector<Evaluation>> runs;
+  std::vector<std::vector<PlacementWorth>> runs;
   for (const int threads : {1, 4}) {
     const LimitThreads limit(threads);
     const Mask mask("face", FaceMask(), VisibilityRule::kIdBuffer, 20.0);
