@@ -49,3 +49,5 @@ configure_package_config_file(cmake/RetroluxConfig.cmake.in ${PROJECT_BINARY_DIR
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/RetroluxConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/RetroluxConfig.cmake ${PROJECT_BINARY_DIR}/RetroluxConfigVersion.cmake
         DESTINATION ${config} COMPONENT dev)
+# Each of the two packages states its licences.
+install(FILES cmake/copyright DESTINATION share/doc/libretrolux-dev COMPONENT dev)

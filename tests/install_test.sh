@@ -25,7 +25,7 @@ done
 retrolux=$prefix/bin/retrolux
 succeed "a scene of the installed program" scene export oval --out oval
 succeed "its pictures" render oval --spp 1 --size 64x48 --out pictures
-succeed "its report" validate --only projection --out report
+succeed "their report, with the page and the plot library" report pictures
 # The source tree has this file, too.
 mv "$prefix/share/retrolux/materials/data/library.json" library.json
 refuse "data that are not installed are not taken from the source tree" \
