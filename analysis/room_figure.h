@@ -41,9 +41,9 @@ struct RoomScene {
   TriangleNumbers numbers;
 };
 
-// Things that stand alike in all of `scenes` are drawn once, cameras too if none of them moves; what
-// is larger than 3.5 m (walls, floor, ceiling) is left out. The object `coloured` must be in all
-// scenes.
+// Things that stand alike in all of `scenes` are drawn once, cameras too if none of them moves;
+// what is larger than 3.5 m (walls, floor, ceiling) is left out. The object `coloured` must be in
+// all scenes.
 RoomFigure DrawRoom(const std::string& choice, const std::vector<RoomScene>& scenes,
                     const std::string& coloured = "mask");
 

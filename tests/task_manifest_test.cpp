@@ -399,7 +399,9 @@ TEST_F(TaskManifestTest, LeftoversOfDeadProcessesAreRemoved) {
 // Two at once with other options: the second is refused before there is any result.
 TEST_F(TaskManifestTest, OtherWorkIsRefusedWhileSomebodyIsAtWork) {
   const TaskManifest first(folder_, "roots", {{"seed", 1}});
-  EXPECT_THAT(MessageOf([&] { TaskManifest(folder_, "roots", {{"seed", 2}}); }),
+  EXPECT_THAT(MessageOf([&] {
+                TaskManifest(folder_, "roots", {{"seed", 2}});
+              }),
               HasSubstr("another process is at other work here; options: /seed was 1, is 2"));
   const TaskManifest same(folder_, "roots", {{"seed", 1}});
 }
