@@ -112,9 +112,10 @@ set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/../.."
 command -v parallel >/dev/null || {{ echo "GNU parallel is not installed" >&2; exit 2; }}
 jobs=$(($(nproc) / {1})); [ "$jobs" -ge 1 ] || jobs=1
-# It gives its arguments to a shell, and begins elsewhere on other hosts. What fails is told by the merge.
+# It gives its arguments to a shell, and begins elsewhere on other hosts. Its exit code up to 101 counts shards that
+# failed, of which the merge tells; beyond, it could not do its own work.
 seq {0} | parallel --jobs "$jobs" --halt never --workdir "$PWD" "$@" \
-  "$(printf %q "${{RETROLUX:-retrolux}}")" dataset run . --shard {{}}/{0} --threads {1} || true
+  "$(printf %q "${{RETROLUX:-retrolux}}")" dataset run . --shard {{}}/{0} --threads {1} || [ $? -le 101 ]
 exec "${{RETROLUX:-retrolux}}" dataset merge .
 )SH",
       plan.shards, plan.threads);

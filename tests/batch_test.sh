@@ -345,6 +345,10 @@ export RETROLUX=$retrolux
 if command -v parallel >/dev/null; then
   emit_parallel/jobs/parallel/run.sh >stdout.txt 2>stderr.txt || bad "GNU parallel" "$(head -c 300 stderr.txt)"
   as_whole "GNU parallel" emit_parallel
+  run dataset plan batch.json --out emit_refused --emit parallel --shards 1
+  emit_refused/jobs/parallel/run.sh --no-such-option >stdout.txt 2>stderr.txt
+  [ $? -ne 0 ] && ! grep -q 'scenes checked' stdout.txt && good "an option that parallel refuses: no merge" ||
+    bad "an option that parallel refuses: no merge" "$(tail -1 stdout.txt)"
   mkdir "my tools" && cp "$retrolux" "my tools/retrolux"
   run dataset plan batch.json --out emit_spaced --emit parallel --shards 1
   rm -rf emit_spaced/tasks/[0-9a-f]*.json

@@ -8,7 +8,7 @@ build=$(realpath "$1")
 cpack -G DEB --config "$build/CPackConfig.cmake" -B made -D CPACK_COMPONENTS_ALL=runtime >cpack.txt 2>&1
 deb=$(find made -maxdepth 1 -name 'retrolux_*_*.deb')
 [ -s "$deb" ] || { bad "cpack" "$(tail -c 500 cpack.txt)"; finish; exit 1; }
-dpkg-deb -x "$deb" root && dpkg-deb -c "$deb" >list.txt && dpkg-deb -f "$deb" >control.txt
+dpkg-deb -x "$deb" unpacked && dpkg-deb -c "$deb" >list.txt && dpkg-deb -f "$deb" >control.txt
 
 control() { if grep -qE -- "$2" control.txt; then good "$1"; else bad "$1" "$(cat control.txt)"; fi; }
 none() { if [ -z "$2" ]; then good "$1"; else bad "$1" "$2"; fi; }
@@ -21,12 +21,12 @@ none "nobody else may write" "$(awk '$1 !~ /^.rw[x-]r-[x-]r-[x-]$/' list.txt)"
 none "nothing but usr" "$(grep -vE ' \./(usr/.*)?$' list.txt)"
 none "no libraries and headers for others" "$(grep -E '\.a$|\.h$' list.txt)"
 for file in man/man1/retrolux.1.gz doc/retrolux/copyright retrolux/analysis/report/node_modules/plotly.js-dist-min/LICENSE; do
-  none "there: $file" "$([ -s root/usr/share/$file ] || echo missing)"
+  none "there: $file" "$([ -s unpacked/usr/share/$file ] || echo missing)"
 done
-none "the manual is packed" "$(gzip -t root/usr/share/man/man1/retrolux.1.gz 2>&1)"
-none "no symbols" "$(file root/usr/bin/retrolux | grep -v ' stripped$')"
+none "the manual is packed" "$(gzip -t unpacked/usr/share/man/man1/retrolux.1.gz 2>&1)"
+none "no symbols" "$(file unpacked/usr/bin/retrolux | grep -v ' stripped$')"
 
-retrolux=$work/root/usr/bin/retrolux
+retrolux=$work/unpacked/usr/bin/retrolux
 succeed "validate" validate --only projection,filter
 succeed "pictures" render oval --spp 1 --size 64x48 --out pictures
 succeed "their report" report pictures
