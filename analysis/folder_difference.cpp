@@ -107,7 +107,7 @@ FileDifference CompareFiles(const fs::path& folder_a, const fs::path& folder_b,
   difference.same = ReadTextFile(a) == ReadTextFile(b);
   if (difference.same) return difference;
   try {
-    if (IsPicture(a)) difference.picture = ComparePictures(a, b);
+    if (IsPicture(a)) difference.picture = ComparePictures(ReadPair(a, b));
     if (a.extension() == ".csv") CompareTables(a, b, difference);
     if (a.extension() == ".json") CompareJson(a, b, difference);
   } catch (const InputError& error) {

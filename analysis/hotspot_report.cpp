@@ -81,8 +81,7 @@ class HotspotReport {
     if (states.empty()) return;
     report_.Room(
         "The cameras with their rings and fields of view, the markers, and the mask coloured by "
-        "how "
-        "many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        "how many cameras see it.",
         DrawRoom("Angle between cameras", states, mask));
   }
 

@@ -152,7 +152,7 @@ class LayoutReport {
     report_.Heading("The room");
     report_.Room(
         "Cameras with their rings and fields of view, the markers, and the mask coloured by how "
-        "many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        "many cameras see it.",
         DrawRoom("Position of the patient", states));
   }
 

@@ -65,8 +65,7 @@ void AddRoom(const MarkerStudy& study, const StudyCoverage& coverage, const Scen
   report.Heading("The room");
   report.Room(
       "The cameras with their rings and fields of view, and the mask coloured by how many of them "
-      "identify the marker there; two make a position usable. The underside was not studied. Drag "
-      "to turn, pinch or scroll to zoom.",
+      "identify the marker there; two make a position usable. The underside was not studied.",
       DrawRoom("Marker and pose", states, kMask));
 }
 

@@ -22,14 +22,18 @@ std::string UnitOf(const std::string& channel) {
   return unit == kUnits.end() ? "" : unit->second;
 }
 
-// "1=mask, 2=couch" of a header, by number.
+// "1=mask, 2=couch" of a header, by number. A name may hold commas: it ends where the next number
+// begins.
 std::vector<std::string> NumberedNames(const std::string& text) {
   std::vector<std::string> names;
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find(", ", begin), text.size());
-    const std::string item = text.substr(begin, end - begin);
-    names.push_back(item.substr(std::min(item.find('=') + 1, item.size())));
-    begin = end + 2;
+  const auto mark = [&] { return fmt::format("{}=", names.size() + 1); };
+  if (!text.starts_with(mark())) return names;
+  for (size_t begin = mark().size(); begin <= text.size();) {
+    names.emplace_back();
+    const std::string next = ", " + mark();
+    const size_t end = std::min(text.find(next, begin), text.size());
+    names.back() = text.substr(begin, end - begin);
+    begin = end + next.size();
   }
   return names;
 }

@@ -78,39 +78,11 @@ std::optional<double> RmsInSigmas(const PictureChannels& a, const PictureChannel
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-void CheckSizes(const PictureChannels& a, const PictureChannels& b,
-                const std::filesystem::path& file_a, const std::filesystem::path& file_b) {
-  if (a.width == b.width && a.height == b.height) return;
-  throw InputError::At(file_b, "", fmt::format("{} x {} px", b.width, b.height),
-                       fmt::format("{} x {} px, as {}", a.width, a.height, file_a.string()));
-}
-
 // 255 DN, or the least full scale of 16 bits that holds what is in the pictures.
 double FullScale(const ReportChannel& a, const ReportChannel& b) {
   double full = 255.0;
   while (full < std::max(Summarise(a).most, Summarise(b).most)) full = 2.0 * full + 1.0;
   return full;
-}
-
-PictureDifference Compare(const PictureChannels& a, const PictureChannels& b) {
-  PictureDifference difference;
-  for (const ReportChannel& channel : a.channels) {
-    const ReportChannel* other = b.Find(channel.name);
-    if (!other || other->kind != channel.kind) {
-      difference.only_in_a.push_back(channel.name);
-      continue;
-    }
-    ChannelDifference& compared =
-        difference.channels.emplace_back(CompareChannels(channel, *other));
-    if (channel.unit == "DN" && compared.rms > 0.0)
-      compared.psnr_db = 20.0 * std::log10(FullScale(channel, *other) / compared.rms);
-    if (channel.name == "electrons.Y") compared.rms_in_sigmas = RmsInSigmas(a, b);
-  }
-  for (const ReportChannel& channel : b.channels) {
-    const ReportChannel* other = a.Find(channel.name);
-    if (!other || other->kind != channel.kind) difference.only_in_b.push_back(channel.name);
-  }
-  return difference;
 }
 
 // b - a; of ids 1 where they are not the same.
@@ -182,20 +154,43 @@ bool PictureDifference::Same() const {
                      [](const ChannelDifference& c) { return c.different == 0; });
 }
 
-PictureDifference ComparePictures(const std::filesystem::path& file_a,
-                                  const std::filesystem::path& file_b) {
-  const PictureChannels a = ReadChannels(file_a), b = ReadChannels(file_b);
-  CheckSizes(a, b, file_a, file_b);
-  return Compare(a, b);
+PicturePair ReadPair(const std::filesystem::path& file_a, const std::filesystem::path& file_b) {
+  PicturePair pair{file_a, file_b, ReadChannels(file_a), ReadChannels(file_b)};
+  if (pair.a.width != pair.b.width || pair.a.height != pair.b.height) {
+    throw InputError::At(
+        file_b, "", fmt::format("{} x {} px", pair.b.width, pair.b.height),
+        fmt::format("{} x {} px, as {}", pair.a.width, pair.a.height, file_a.string()));
+  }
+  return pair;
 }
 
-Report DifferenceReport(const std::filesystem::path& file_a, const std::filesystem::path& file_b,
-                        const std::string& command) {
-  const PictureChannels a = ReadChannels(file_a), b = ReadChannels(file_b);
-  CheckSizes(a, b, file_a, file_b);
+PictureDifference ComparePictures(const PicturePair& pair) {
+  const PictureChannels &a = pair.a, &b = pair.b;
+  PictureDifference difference;
+  for (const ReportChannel& channel : a.channels) {
+    const ReportChannel* other = b.Find(channel.name);
+    if (!other || other->kind != channel.kind) {
+      difference.only_in_a.push_back(channel.name);
+      continue;
+    }
+    ChannelDifference& compared =
+        difference.channels.emplace_back(CompareChannels(channel, *other));
+    if (channel.unit == "DN" && compared.rms > 0.0)
+      compared.psnr_db = 20.0 * std::log10(FullScale(channel, *other) / compared.rms);
+    if (channel.name == "electrons.Y") compared.rms_in_sigmas = RmsInSigmas(a, b);
+  }
+  for (const ReportChannel& channel : b.channels) {
+    const ReportChannel* other = a.Find(channel.name);
+    if (!other || other->kind != channel.kind) difference.only_in_b.push_back(channel.name);
+  }
+  return difference;
+}
+
+Report DifferenceReport(const PicturePair& pair, const std::string& command) {
+  const PictureChannels &a = pair.a, &b = pair.b;
   Report report("How two pictures differ",
-                fmt::format("a: {}; b: {}", file_a.string(), file_b.string()));
-  AddTable(Compare(a, b), report);
+                fmt::format("a: {}; b: {}", pair.file_a.string(), pair.file_b.string()));
+  AddTable(ComparePictures(pair), report);
   const double full = std::max(HighLevel(a.channels.front()), HighLevel(b.channels.front()));
   report.Comparison(fmt::format("Channel {}, 0 to {:.4g} {}, dark levels raised (gamma 2.2)",
                                 a.channels.front().name, full, a.channels.front().unit),

@@ -32,12 +32,18 @@ struct PictureDifference {
   bool Same() const;
 };
 
-// InputError, with both names, if the pictures are not of the same size.
-PictureDifference ComparePictures(const std::filesystem::path& file_a,
-                                  const std::filesystem::path& file_b);
+// Two pictures of the same size.
+struct PicturePair {
+  std::filesystem::path file_a, file_b;
+  PictureChannels a, b;
+};
+
+// InputError if one is no picture, or if they are not of the same size.
+PicturePair ReadPair(const std::filesystem::path& file_a, const std::filesystem::path& file_b);
+
+PictureDifference ComparePictures(const PicturePair& pair);
 
 // The two pictures with a slider between them, and b - a of each channel in false colour.
-Report DifferenceReport(const std::filesystem::path& file_a, const std::filesystem::path& file_b,
-                        const std::string& command);
+Report DifferenceReport(const PicturePair& pair, const std::string& command);
 
 }  // namespace retrolux

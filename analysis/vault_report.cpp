@@ -114,7 +114,7 @@ class VaultReport {
         DrawVault(setup));
     report_.Room(
         "The same in three dimensions: cameras with their rings and fields of view, the nozzles, "
-        "and the mask coloured by how many cameras see it. Drag to turn, pinch or scroll to zoom.",
+        "and the mask coloured by how many cameras see it.",
         DrawVaultRoom(study_));
   }
 

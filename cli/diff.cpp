@@ -107,11 +107,12 @@ Outcome DiffFolders(const DiffCommand& command) {
 }
 
 Outcome DiffPictures(const DiffCommand& command, const GlobalOptions& global) {
-  const PictureDifference difference = ComparePictures(command.a, command.b);
+  const PicturePair pair = ReadPair(command.a, command.b);
+  const PictureDifference difference = ComparePictures(pair);
   Outcome outcome{difference.Same(), PictureJson(difference), PictureText(difference)};
   if (outcome.same) outcome.text = "the same in every pixel";
   if (!command.out.empty()) {
-    DifferenceReport(command.a, command.b, global.command_line).Write(command.out);
+    DifferenceReport(pair, global.command_line).Write(command.out);
     outcome.json["page"] = command.out.string();
     outcome.text += command.out.string();
   }

@@ -51,25 +51,24 @@ Arguments::iterator OutOption(Arguments& arguments) {
   });
 }
 
-// The folder that --out named, if `folder` is where that result lies now: studies of several rooms
-// have folders below it.
-fs::path OutOf(const fs::path& folder, const fs::path& was_out, const fs::path& below) {
+// What --out is to be, if `folder` is where a result lies now that was `below` it: studies of
+// several rooms have a folder for each.
+fs::path OutOf(const fs::path& folder, const fs::path& below) {
   fs::path out = fs::absolute(folder).lexically_normal();
   if (!out.has_filename()) out = out.parent_path();
-  if (was_out.empty() || below == ".") return out;
+  if (below == ".") return out;
   for (size_t i = 0; i < static_cast<size_t>(std::distance(below.begin(), below.end())); ++i)
     out = out.parent_path();
   return out;
 }
 
-// The command of run.json on the folder where its results are now, with the global options of this
-// one. All of its tasks are done, so that it only writes its report and tables.
+// The command of run.json on the folder where its results are now, told as this one is. All of its
+// tasks are done, so that it only writes its report and tables.
 Arguments CommandAgain(const fs::path& folder, const Json& run, const GlobalOptions& global) {
   Arguments arguments = run.at("arguments").get<Arguments>();
   if (const auto out = OutOption(arguments); out != arguments.end()) {
     const bool joined = *out != "--out";
-    const std::string value = joined ? out->substr(6) : *(out + 1);
-    const std::string now = OutOf(folder, value, run.value("below_out", ".")).string();
+    const std::string now = OutOf(folder, run.value("below_out", ".")).string();
     *(joined ? out : out + 1) = joined ? "--out=" + now : now;
   } else if (arguments.size() > 2 && arguments[0] == "dataset") {
     arguments = {"dataset", "run", folder.string()};

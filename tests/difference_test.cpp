@@ -29,7 +29,7 @@ fs::path Picture(const std::string& name, const FloatPlane& electrons, float var
                  const IdPlane& ids = IdPlane(kWidth, kHeight, 1)) {
   const fs::path file = OwnFolder() / name;
   WriteExr(file, {{{"electrons.Y", electrons}, {"variance.Y", Flat(variance)}, {"id.object", ids}},
-                  {{"retrolux/objects", "1=mask, 2=couch"}}});
+                  {{"retrolux/objects", "1=mask, 2=couch, left, 3=bore"}}});
   return file;
 }
 
@@ -42,8 +42,8 @@ const ChannelDifference& Channel(const PictureDifference& difference, const std:
 
 // b - a = 2 everywhere over a = 10: relMSE = 4 / (100 + (0.01 10)^2).
 TEST(ComparePictures, MeasuresOfAConstantShift) {
-  const PictureDifference difference =
-      ComparePictures(Picture("a.exr", Flat(10.0f), 0.0f), Picture("b.exr", Flat(12.0f), 0.0f));
+  const PictureDifference difference = ComparePictures(
+      ReadPair(Picture("a.exr", Flat(10.0f), 0.0f), Picture("b.exr", Flat(12.0f), 0.0f)));
   EXPECT_FALSE(difference.Same());
   const ChannelDifference& electrons = Channel(difference, "electrons.Y");
   EXPECT_EQ(electrons.different, kWidth * kHeight);
@@ -66,7 +66,7 @@ TEST(ComparePictures, NoiseIsOneSigma) {
   for (float& value : a.data) value += 3.0f * unit(rng);
   for (float& value : b.data) value += 4.0f * unit(rng);
   const PictureDifference difference =
-      ComparePictures(Picture("na.exr", a, 9.0f), Picture("nb.exr", b, 16.0f));
+      ComparePictures(ReadPair(Picture("na.exr", a, 9.0f), Picture("nb.exr", b, 16.0f)));
   const std::optional<double> sigmas = Channel(difference, "electrons.Y").rms_in_sigmas;
   ASSERT_TRUE(sigmas);
   EXPECT_NEAR(*sigmas * *sigmas, 1.0, 5.0 * std::sqrt(2.0 / (kWidth * kHeight)));
@@ -77,8 +77,8 @@ TEST(ComparePictures, IdsAndNaNs) {
   for (int x = 0; x < 7; ++x) ids(x, 3) = 2;
   FloatPlane holes = Flat(1.0f);
   holes(5, 5) = std::nanf("");
-  const PictureDifference difference =
-      ComparePictures(Picture("ia.exr", holes, 0.0f), Picture("ib.exr", holes, 0.0f, ids));
+  const PictureDifference difference = ComparePictures(
+      ReadPair(Picture("ia.exr", holes, 0.0f), Picture("ib.exr", holes, 0.0f, ids)));
   EXPECT_EQ(Channel(difference, "electrons.Y").different, 0) << "NaN is the same as NaN";
   EXPECT_EQ(Channel(difference, "id.object").different, 7);
   EXPECT_TRUE(Channel(difference, "id.object").ids);
@@ -89,20 +89,20 @@ TEST(ComparePictures, PsnrOfDigitalPictures) {
   const fs::path a = OwnFolder() / "a.png", b = OwnFolder() / "b.png";
   WritePng(a, {Plane<uint16_t>(kWidth, kHeight, 100), 8});
   WritePng(b, {Plane<uint16_t>(kWidth, kHeight, 101), 8});
-  const PictureDifference difference = ComparePictures(a, b);
+  const PictureDifference difference = ComparePictures(ReadPair(a, b));
   ASSERT_TRUE(Channel(difference, "grey").psnr_db);
   EXPECT_NEAR(*Channel(difference, "grey").psnr_db, 20.0 * std::log10(255.0), 1e-9);
-  EXPECT_TRUE(ComparePictures(a, a).Same());
+  EXPECT_TRUE(ComparePictures(ReadPair(a, a)).Same());
   WritePng(b, {Plane<uint16_t>(kWidth, 50, 100), 8});
-  EXPECT_THAT(MessageOf([&] { ComparePictures(a, b); }),
-              HasSubstr("200 x 50 px; expected 200 x 100"));
+  EXPECT_THAT(MessageOf([&] { ReadPair(a, b); }), HasSubstr("200 x 50 px; expected 200 x 100"));
 }
 
 TEST(ReadChannels, NamesAndUnits) {
   const PictureChannels picture = ReadChannels(Picture("c.exr", Flat(3.0f), 1.0f));
   EXPECT_EQ(picture.channels.front().name, "electrons.Y");
   ASSERT_TRUE(picture.Find("id.object"));
-  EXPECT_EQ(picture.Find("id.object")->names, (std::vector<std::string>{"mask", "couch"}));
+  EXPECT_EQ(picture.Find("id.object")->names,
+            (std::vector<std::string>{"mask", "couch, left", "bore"}));
   EXPECT_EQ(Summarise(*picture.Find("electrons.Y")).mean, 3.0);
   EXPECT_THAT(MessageOf([] { PictureView(OwnFolder() / "c.exr", {"electron.Y"}, ""); }),
               HasSubstr("no channel 'electron.Y'; expected one of electrons.Y, "));

@@ -41,6 +41,7 @@ function drawRoom(block) {
     ...block.states.map((state) => el('option', {}, state.label)),
   );
   afterLayout.push(() => show(0));
+  const hint = el('p', { className: 'hint' }, 'Drag to turn, scroll or pinch to zoom; a click on a name of the legend takes it away.');
   const label = el('label', { className: 'choice' }, `${block.choice}: `, choice);
-  return figure('Figure', block.caption, ...(block.states.length > 1 ? [label] : []), host);
+  return figure('Figure', block.caption, ...(block.states.length > 1 ? [label] : []), host, hint);
 }
